@@ -34,8 +34,9 @@ impl Arc {
     /// Everything in which the solution lies beyond its tables.
     ///
     /// # Errors
-    /// [`Error::BeyondTable`] where the scene does not let a table go on.
+    /// [`Error::BeyondTable`] where the scene does not let a table go on, [`Error::Unlawful`] where a formula is no property.
     pub fn beyond(&self) -> Result<Vec<Told>, Error> {
+        self.lawful()?;
         for (index, material) in self.case.materials.iter().enumerate() {
             for range in &material.strict {
                 self.keep(index, range)?;

@@ -38,6 +38,21 @@ pub enum Error {
         /// What the scene can ask for.
         advice: String,
     },
+    /// A formula of a property that is no property.
+    #[error(
+        "{place}: {property} is {value} at {temperature:.0} K; it must be a number, 0 or more: \
+         bound the formula, for example by max(0, ...)"
+    )]
+    Unlawful {
+        /// Cell with its position.
+        place: String,
+        /// Temperature found \[K\].
+        temperature: f64,
+        /// JSON path of the formula.
+        property: String,
+        /// What it gives there.
+        value: f64,
+    },
     /// A gas table that cannot be used.
     #[error("gas table: {0}")]
     GasTable(String),

@@ -20,6 +20,8 @@ pub mod flow;
 pub mod frames;
 pub mod grid;
 pub mod heat;
+mod laws;
+mod layers;
 mod limits;
 pub mod march;
 pub mod material;

@@ -3,8 +3,8 @@
 use artefact::Table;
 use run::Plan;
 
-use crate::case::Case;
-use crate::material::GAS;
+use crate::case::{Case, HeatEdge};
+use crate::material::{GAS, REFERENCE_K};
 use crate::{bed, current, flow, heat, vapour};
 
 /// An effect that a scene may ask for.
@@ -80,6 +80,25 @@ pub(crate) fn plan(case: &Case) -> Plan {
         plan = plan.column(name, unit);
     }
     output(case, plasma, plan)
+}
+
+/// What is to be told of a body that moves in from beyond an edge without a temperature, and not from a room.
+pub(crate) fn entering(case: &Case) -> Option<String> {
+    let (heat, grid) = (case.heat.as_ref()?, &case.grid);
+    let outer = heat.edges.outer.iter().enumerate();
+    let open = outer.filter(|(_, edge)| !matches!(edge, HeatEdge::Temperature(_)));
+    let mut rows = open.map(|(j, _)| j);
+    rows.find_map(|j| {
+        let material = case.material[grid.cell(grid.nr - 1, j)];
+        let plate = heat.plates.iter().find(|plate| plate.material == material)?;
+        let t = plate.beyond[j];
+        ((t - REFERENCE_K).abs() > 0.0).then(|| {
+            format!(
+                "the body \"{}\" comes from beyond the outer edge as warm as it is there at the start, {t:.0} K",
+                case.materials[material].name
+            )
+        })
+    })
 }
 
 /// Columns that `/surface` has at most.

@@ -28,6 +28,8 @@ pub struct ArcFvm;
 pub struct Ready {
     scene: Scene,
     case: Case,
+    /// What is to be told of the surface of the inputs.
+    doubt: Option<String>,
     /// A solution to start from.
     start: Option<PathBuf>,
 }
@@ -68,17 +70,27 @@ impl Tool for ArcFvm {
     type Ready = Ready;
 
     fn prepare(scene: Scene, inputs: Inputs) -> Result<Ready, Failure> {
-        let (scene, case) = problem(scene, &inputs)?;
         let start = inputs.get("start").map(Path::to_owned);
-        Ok(Ready { scene, case, start })
+        let (scene, doubt) = match inputs.get("surface") {
+            Some(path) => pool::deform(&scene, path)?,
+            None => (scene, None),
+        };
+        let case = problem(&scene, &inputs)?;
+        Ok(Ready {
+            scene,
+            case,
+            doubt,
+            start,
+        })
     }
 
     fn plan(ready: &Ready) -> Result<Plan, Failure> {
-        let plan = plan::plan(&ready.case);
-        Ok(match pool::told(&ready.scene, &ready.case) {
-            Some(told) => plan.note(told),
-            None => plan,
-        })
+        let told = [
+            pool::told(&ready.scene, &ready.case),
+            plan::entering(&ready.case),
+        ];
+        let told = told.into_iter().flatten();
+        Ok(told.fold(plan::plan(&ready.case), Plan::note))
     }
 
     fn estimate(ready: Ready) -> Result<Option<Estimate>, Failure> {
@@ -106,13 +118,18 @@ impl Tool for ArcFvm {
 
     fn preview(scene: &Scene, inputs: &Inputs) -> Result<Preview, Failure> {
         match inputs.get("surface") {
-            Some(path) => preview(&pool::deform(scene, path)?),
+            Some(path) => preview(&pool::deform(scene, path)?.0),
             None => preview(scene),
         }
     }
 
     fn run(ready: Ready, session: &mut Session) -> Result<(), Failure> {
-        let Ready { scene, case, start } = ready;
+        let Ready {
+            scene,
+            case,
+            doubt,
+            start,
+        } = ready;
         let mut arc = Arc::new(case, Settings::from(&scene.iterate));
         if let Some(path) = start
             && let Some(told) = start::take(&mut arc, &path)?
@@ -127,22 +144,21 @@ impl Tool for ArcFvm {
                 false => session.note(told.text),
             }
         }
+        for told in arc.unheld(&scene.sample).into_iter().chain(doubt) {
+            session.warn(told);
+        }
         march::close(&arc, balance.as_ref(), session);
         frames::write(&arc, balance.as_ref(), &scene.sample, session)
     }
 }
 
-/// Reads the inputs that the scene asks for and assembles the problem; with the surface of the inputs in the scene.
-fn problem(scene: Scene, inputs: &Inputs) -> Result<(Scene, Case), Failure> {
+/// Reads the gas that the scene asks for and assembles the problem.
+fn problem(scene: &Scene, inputs: &Inputs) -> Result<Case, Failure> {
     let gas = match (&scene.gas, inputs.get("gas")) {
         (Gas::Table(_), Some(path)) => Some(GasFile::read(path)?),
         _ => None,
     };
-    let scene = match inputs.get("surface") {
-        Some(path) => pool::deform(&scene, path)?,
-        None => scene,
-    };
-    let case = assemble(&scene, gas.as_ref())?;
+    let case = assemble(scene, gas.as_ref())?;
     let driven = case.potential.as_ref().and_then(|p| p.driven);
     if scene.iterate.continuation.is_some() && driven.is_none() {
         let what = "wants a total_current_a at one of the edges: there is no current to follow";
@@ -151,5 +167,5 @@ fn problem(scene: Scene, inputs: &Inputs) -> Result<(Scene, Case), Failure> {
             what,
         )]));
     }
-    Ok((scene, case))
+    Ok(case)
 }

@@ -252,6 +252,54 @@ fn gas_velocity(arc: &Arc, i: usize, row: usize, height: f64) -> f64 {
     between(&known, height)
 }
 
+/// Part of a height by which rounding may take it beyond a cell.
+const ROUNDING: f64 = 1e-9;
+/// Part of the surface over which a sample may not reach its height.
+const FEW: f64 = 0.1;
+
+/// What is to be told of heights at which there is no gas to sample: over the axis, or over much of the surface.
+pub(crate) fn unreached(arc: &Arc, sample: &Sample) -> Option<String> {
+    let (surfaces, ring) = (arc.case.surfaces.as_ref()?, &arc.case.grid.ring);
+    let rows = columns(arc, surfaces);
+    arc.flowing.as_ref().zip(rows.first())?;
+    let whole: f64 = rows.iter().map(|c| ring[c.i]).sum();
+    let tell = |(key, height): (&str, f64)| {
+        let missed = rows.iter().filter(|c| !reaches(arc, c, height));
+        let missed: Vec<&Column> = missed.collect();
+        let part = missed.iter().map(|c| ring[c.i]).sum::<f64>() / whole;
+        let first = missed.first()?;
+        let is_axis = first.i == rows[0].i;
+        (is_axis || part > FEW).then(|| {
+            format!(
+                "sample/{key} of {height:.2e} m is beyond the gas over {:.0} % of the surface, first at r = {:.3} mm: the \
+                 table holds the nearest value there; take a smaller height",
+                100.0 * part,
+                1e3 * arc.case.grid.rc[first.i]
+            )
+        })
+    };
+    let heights = [
+        ("velocity_height_m", sample.velocity_height_m),
+        ("temperature_height_m", sample.temperature_height_m),
+    ];
+    let told: Vec<String> = heights.into_iter().filter_map(tell).collect();
+    (!told.is_empty()).then(|| told.join("; "))
+}
+
+/// Whether gas lies at `height` \[m\] over a column.
+fn reaches(arc: &Arc, column: &Column, height: f64) -> bool {
+    let (case, grid) = (&arc.case, &arc.case.grid);
+    if let Some(Beside { place: [r, z], .. }) = beside(arc, column.i, height) {
+        let material = case.material[grid.cell(grid.column_of(r), grid.row_of(z))];
+        let is_of_base = Some(material) == base(arc);
+        return r < grid.rf[grid.nr] && z < grid.zf[grid.nz] && (material == GAS || is_of_base);
+    }
+    let rows = column.row..grid.nz;
+    let gas = rows.take_while(|j| case.material[grid.cell(column.i, *j)] == GAS);
+    let last = gas.last().map_or(0.0, |j| grid.zc[j] - grid.zf[column.row]);
+    height <= last * (1.0 + ROUNDING)
+}
+
 #[cfg(test)]
 mod tests {
     use super::between;

@@ -5,7 +5,6 @@ use super::layout::Layout;
 use super::{Faults, cell_source};
 use crate::case::{Edges, HeatCase, HeatEdge, MovingPlate};
 use crate::grid::Grid;
-use crate::material::REFERENCE_K;
 use crate::scene::{self, Body, Heat, Moving, Scene};
 
 /// The heat, where the scene has any.
@@ -13,13 +12,14 @@ pub(super) fn heat(
     scene: &Scene,
     layout: &Layout,
     bodies: &[(&String, &Body)],
+    start: &[f64],
     faults: &mut Faults,
 ) -> Option<HeatCase> {
     let heat = scene.heat.as_ref()?;
     let edges = edges(scene, &layout.grid, faults);
     let (source, at) = (heat.source_w_m3.as_ref(), "/heat/source_w_m3");
     Some(HeatCase {
-        plates: plates(bodies, &edges),
+        plates: plates(bodies, &edges, &layout.grid, start),
         edges,
         source: cell_source(&layout.grid, source, at, faults),
         electrons: carriers(scene, heat, faults),
@@ -71,11 +71,17 @@ fn carriers(scene: &Scene, heat: &Heat, faults: &mut Faults) -> Option<scene::El
     heat.electrons
 }
 
-/// Moving bodies; beyond the edge of the domain they are as warm as the edge is, or as the room.
-fn plates(bodies: &[(&String, &Body)], edges: &Edges<HeatEdge>) -> Vec<MovingPlate> {
-    let beyond = edges.outer.iter().map(|edge| match edge {
+/// Moving bodies; beyond the edge of the domain they are as warm as the edge is, or as the domain is there at the start.
+fn plates(
+    bodies: &[(&String, &Body)],
+    edges: &Edges<HeatEdge>,
+    grid: &Grid,
+    start: &[f64],
+) -> Vec<MovingPlate> {
+    let outer = edges.outer.iter().enumerate();
+    let beyond = outer.map(|(j, edge)| match edge {
         HeatEdge::Temperature(t) => *t,
-        HeatEdge::Insulated | HeatEdge::Flux(_) => REFERENCE_K,
+        HeatEdge::Insulated | HeatEdge::Flux(_) => start[grid.cell(grid.nr - 1, j)],
     });
     let beyond: Vec<f64> = beyond.collect();
     let moving = bodies.iter().enumerate();

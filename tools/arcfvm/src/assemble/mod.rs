@@ -78,7 +78,7 @@ pub fn assemble(scene: &Scene, gas: Option<&GasFile>) -> Result<Case, Failure> {
         current::electrons(current, &materials[GAS], &mut faults);
     }
     let flow = flow::flow(scene, &layout, &materials, &mut faults);
-    let heat = heat::heat(scene, &layout, &bodies, &mut faults);
+    let heat = heat::heat(scene, &layout, &bodies, &start, &mut faults);
     let bed = bed::bed(scene, &layout, &bodies, &mut faults);
     let flows = flow.as_ref();
     let vapour = vapour::vapour(scene, gas, &layout, &electrodes, flows, &mut faults);

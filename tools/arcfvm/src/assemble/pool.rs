@@ -17,6 +17,8 @@ use crate::scene::{Profile, Scene, Shape};
 
 /// Least part of the places and frames of a ring that have metal.
 const COVERED: f64 = 0.95;
+/// Part of the whole bend of an averaged surface by which its last rings may differ: it is held level beyond them.
+const LEVEL: f64 = 0.1;
 
 /// A file of kind `surface-profile`: height over radius.
 #[derive(Debug, Clone, Deserialize)]
@@ -25,12 +27,13 @@ struct File {
     height_m: Vec<f64>,
 }
 
-/// The scene with the surface in `path` on the body that has a profile without one.
+/// The scene with the surface in `path` on the body that has a profile without one, and what is to be told of it.
 ///
 /// # Errors
 /// When the file holds no surface, no body waits for one, or the surface leaves the body or the domain.
-pub(crate) fn deform(scene: &Scene, path: &Path) -> Result<Scene, Failure> {
+pub(crate) fn deform(scene: &Scene, path: &Path) -> Result<(Scene, Option<String>), Failure> {
     let surface = read(path)?;
+    let is_averaged = path.extension().is_some_and(|e| e == "mcap");
     let refused = |what: &str| Failure::Other(format!("{}: {what}", path.display()));
     if let Some(what) = surface.fault() {
         return Err(refused(what));
@@ -52,8 +55,28 @@ pub(crate) fn deform(scene: &Scene, path: &Path) -> Result<Scene, Failure> {
         let what = format!("the surface in {} {what}", path.display());
         return Err(Fault::at(&format!("/bodies/{name}/shape/profile"), what).into());
     }
+    let told = is_averaged.then(|| ends(&surface, profile)).flatten();
+    let told = told.map(|what| format!("the surface in {} {what}", path.display()));
     profile.top = Some(surface);
-    Ok(scene)
+    Ok((scene, told))
+}
+
+/// How an averaged surface ends within its body where it is not level yet.
+fn ends(surface: &Surface, profile: &Profile) -> Option<String> {
+    let heights = surface.z_m.iter().copied();
+    let bend =
+        heights.clone().fold(f64::NEG_INFINITY, f64::max) - heights.fold(f64::INFINITY, f64::min);
+    let ([.., r], [.., before, z]) = (surface.r_m.as_slice(), surface.z_m.as_slice()) else {
+        return None;
+    };
+    let step = (z - before).abs();
+    (*r < profile.r_m[1] && step > LEVEL * bend).then(|| {
+        let [r, edge, step, bend] = [*r, profile.r_m[1], step, bend].map(|x| x * 1e3);
+        format!(
+            "ends at r = {r:.3} mm of {edge:.3} mm, where it still changes by {step:.3} mm in a ring, of {bend:.3} mm in all: \
+             beyond it the metal is level; average over a greater profile/radius_m"
+        )
+    })
 }
 
 fn read(path: &Path) -> Result<Surface, Failure> {
@@ -132,4 +155,28 @@ pub(crate) fn told(scene: &Scene, case: &Case) -> Option<String> {
              tells: the metal is level at z = {level:.3} mm"
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_surface_that_ends_on_a_slope_is_told() {
+        let profile = Profile {
+            r_m: [0.0, 0.02],
+            bottom_m: -0.01,
+            top: None,
+        };
+        let of = |z_m: &[f64]| {
+            let surface = Surface {
+                r_m: vec![5e-4, 1.5e-3, 2.5e-3, 3.5e-3],
+                z_m: z_m.to_vec(),
+            };
+            ends(&surface, &profile)
+        };
+        let told = of(&[-2e-3, -1.5e-3, -1e-3, -5e-4]).unwrap();
+        assert!(told.contains("r = 3.500 mm of 20.000 mm"), "{told}");
+        assert_eq!(of(&[-2e-3, -1e-3, 2e-4, 3e-4]), None);
+    }
 }

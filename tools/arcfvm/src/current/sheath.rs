@@ -1,8 +1,19 @@
 //! The sheath rule: gas close to an electrode conducts as the gas just beyond (Komen 2019, section
 //! 5.2.3 and fig. 5.12), since the cold layer on a metal is no barrier to the current in truth.
 
-use crate::grid::Grid;
+use crate::grid::{FaceIndex, Grid};
 use crate::material::{GAS, Law, Material};
+
+/// What the cells off a face of an electrode hold of its sheath.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Held {
+    /// The sheath, and gas beyond it.
+    Whole,
+    /// Nothing: the middle of the first cell lies beyond the sheath.
+    Thin,
+    /// No gas beyond it: metal or the edge of the domain is nearer.
+    Thick,
+}
 
 /// Gas close to electrodes, and where each of its cells takes its conductivity from.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,6 +24,8 @@ pub struct Sheath {
     depth: f64,
     /// For each cell the cell whose conductivity it takes; itself mostly, `[nr nz]`.
     pub from: Vec<usize>,
+    /// Every face of its electrodes to gas, and what cells hold there.
+    pub faces: Vec<(FaceIndex, Held)>,
     /// Whether it keeps the electrons of that cell in place of its conductivity.
     keeps_electrons: bool,
 }
@@ -65,6 +78,7 @@ impl Sheath {
             has,
             depth,
             from: Vec::new(),
+            faces: Vec::new(),
             keeps_electrons: false,
         };
         sheath.renew(grid, material);
@@ -102,43 +116,69 @@ impl Sheath {
     /// the first cell beyond.
     pub fn renew(&mut self, grid: &Grid, material: &[usize]) {
         self.from = (0..grid.len()).collect();
+        self.faces.clear();
         for k in (0..grid.len()).filter(|k| self.has[material[*k]]) {
-            let (i, j) = (k % grid.nr, k / grid.nr);
-            let up = (j + 1..grid.nz).map(|n| (grid.cell(i, n), grid.dz[n]));
-            line(up, material, self.depth, &mut self.from);
-            let down = (0..j).rev().map(|n| (grid.cell(i, n), grid.dz[n]));
-            line(down, material, self.depth, &mut self.from);
-            let out = (i + 1..grid.nr).map(|n| (grid.cell(n, j), grid.dr[n]));
-            line(out, material, self.depth, &mut self.from);
-            let within = (0..i).rev().map(|n| (grid.cell(n, j), grid.dr[n]));
-            line(within, material, self.depth, &mut self.from);
+            for (face, cells) in lines(grid, k) {
+                let held = line(cells, material, self.depth, &mut self.from);
+                self.faces.extend(held.map(|held| (face, held)));
+            }
         }
+    }
+
+    /// Depth \[m\].
+    #[must_use]
+    pub fn depth(&self) -> f64 {
+        self.depth
     }
 }
 
-/// The cells along one straight line off the surface, with their widths.
+/// Cells along a line, with their widths \[m\].
+type Cells<'a> = Box<dyn Iterator<Item = (usize, f64)> + 'a>;
+
+/// The four lines off cell `k`: the face where each begins, and its cells.
+fn lines(grid: &Grid, k: usize) -> [(FaceIndex, Cells<'_>); 4] {
+    let (i, j) = (k % grid.nr, k / grid.nr);
+    let axial = move |n: usize| (grid.cell(i, n), grid.dz[n]);
+    let radial = move |n: usize| (grid.cell(n, j), grid.dr[n]);
+    let [below, above] = [j, j + 1].map(|face| FaceIndex::Axial(grid.axial_face(i, face)));
+    let [inner, outer] = [i, i + 1].map(|face| FaceIndex::Radial(grid.radial_face(face, j)));
+    [
+        (above, Box::new((j + 1..grid.nz).map(axial))),
+        (below, Box::new((0..j).rev().map(axial))),
+        (outer, Box::new((i + 1..grid.nr).map(radial))),
+        (inner, Box::new((0..i).rev().map(radial))),
+    ]
+}
+
+/// Takes the cells along one straight line off the surface; nothing where it begins in no gas.
 fn line(
     cells: impl Iterator<Item = (usize, f64)>,
     material: &[usize],
     depth: f64,
     from: &mut [usize],
-) {
+) -> Option<Held> {
     let mut reached = 0.0;
     let mut thin = Vec::new();
     for (cell, width) in cells {
         if material[cell] != GAS {
-            return;
+            break;
         }
         // A cell belongs to the sheath if its centre does.
         if reached + 0.5 * width > depth {
+            let held = if thin.is_empty() {
+                Held::Thin
+            } else {
+                Held::Whole
+            };
             for k in thin {
                 from[k] = cell;
             }
-            return;
+            return Some(held);
         }
         thin.push(cell);
         reached += width;
     }
+    (!thin.is_empty()).then_some(Held::Thick)
 }
 
 #[cfg(test)]
@@ -234,5 +274,23 @@ mod tests {
             assert_eq!(sheath.from[grid.cell(i, 2)], grid.cell(i, 3));
             assert_eq!(sheath.from[grid.cell(i, 3)], grid.cell(i, 3));
         }
+    }
+
+    #[test]
+    fn a_sheath_that_no_cell_holds_or_that_fills_the_gap_is_found() {
+        // Metal, four cells of gas, metal, along the axis.
+        let grid = Grid::new(vec![0.0, 1.0], (0..=6).map(f64::from).collect());
+        let material = [1, GAS, GAS, GAS, GAS, 1];
+        let of = |depth: f64| {
+            let sheath = Sheath::new(&grid, &material, vec![false, true], depth);
+            sheath
+                .faces
+                .iter()
+                .map(|(_, held)| *held)
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(of(0.4), [Held::Thin; 2]);
+        assert_eq!(of(1.0), [Held::Whole; 2]);
+        assert_eq!(of(5.0), [Held::Thick; 2]);
     }
 }

@@ -101,6 +101,13 @@ impl Layer {
         layer
     }
 
+    /// Whether the gas ends before it does.
+    #[must_use]
+    pub fn is_cut(&self) -> bool {
+        let inside: f64 = self.links.iter().map(|link| link.inside).sum();
+        inside < (1.0 - ROUNDING) * self.depth
+    }
+
     /// A quantity at the edge of the film, linear between the values `of` cells and that at the `surface`.
     #[must_use]
     pub fn at(&self, surface: f64, of: &[f64]) -> f64 {
@@ -193,6 +200,7 @@ mod tests {
     fn the_other_wall_ends_a_film_that_is_too_thick() {
         let (_, layer) = over_a_plate(4, 9.0);
         assert_eq!(layer.links.len(), 4);
+        assert!(layer.is_cut() && !over_a_plate(4, 0.4).1.is_cut());
         let edge = layer.at(0.0, &[0.0, 1.0, 2.0, 3.0, 4.0]);
         assert!((edge - 4.0).abs() < 1e-12);
     }

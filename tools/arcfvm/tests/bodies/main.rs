@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod feed;
+mod held;
 mod supply;
 
 use arcfvm::assemble::assemble;
