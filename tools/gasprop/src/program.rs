@@ -25,6 +25,8 @@ pub struct Ready {
 
 /// Temperatures that are evaluated between two looks at the clock, per thread.
 const PER_THREAD: usize = 4;
+/// Greatest error of linear interpolation that a table may have where the scene gives no limit: that of a rough property.
+const LIMIT: f64 = 0.25;
 
 impl Tool for GasProp {
     const NAME: &'static str = "gasprop";
@@ -284,13 +286,13 @@ fn tell(scene: &Scene, gas: &Gas, errors: &Errors<'_>, session: &mut Session) {
         (
             "temperature",
             errors.temperature,
-            limits.map(|limit| limit.temperature),
+            limits.map_or(LIMIT, |limit| limit.temperature),
             2.0,
         ),
         (
             "iron",
             errors.iron,
-            limits.and_then(|limit| limit.iron),
+            limits.and_then(|limit| limit.iron).unwrap_or(LIMIT),
             2.0,
         ),
     ];
@@ -308,22 +310,21 @@ fn tell(scene: &Scene, gas: &Gas, errors: &Errors<'_>, session: &mut Session) {
             "linear interpolation along {along} errs by at most {:.2e} ({}, {place})",
             worst.error, column.name
         );
-        match limit {
-            Some(limit) if worst.error > limit => {
-                // Along each axis the error falls with the square of the distance.
-                let more = (worst.error / limit).powf(1.0 / power);
-                let have = if along == "iron" {
-                    scene.iron().len()
-                } else {
-                    scene.count()
-                };
-                session.warn(format!(
-                    "{text}, above the limit of {limit:e}: about {:.0} values instead of {have} would meet it",
-                    (have as f64 * more).ceil()
-                ));
-            }
-            _ => session.note(text),
+        if worst.error <= limit {
+            session.note(text);
+            continue;
         }
+        // Along each axis the error falls with the square of the distance.
+        let more = (worst.error / limit).powf(1.0 / power);
+        let have = if along == "iron" {
+            scene.iron().len()
+        } else {
+            scene.count()
+        };
+        session.warn(format!(
+            "{text}, above the limit of {limit:e}: about {:.0} values instead of {have} would meet it",
+            (have as f64 * more).ceil()
+        ));
     }
 }
 

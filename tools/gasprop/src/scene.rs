@@ -31,7 +31,7 @@ pub struct Scene {
     /// Other values for inputs that are uncertain; absent: those of the data.
     #[serde(default)]
     pub uncertain: Option<Uncertain>,
-    /// Limits of the table's errors; absent: errors are reported without a limit.
+    /// Limits of the table's errors; absent: a quarter.
     #[serde(default)]
     pub accuracy: Option<Accuracy>,
 }
@@ -121,7 +121,7 @@ pub struct Accuracy {
     /// a thousandth of the column's greatest; beyond it the run ends with a warning.
     #[schemars(range(min = 1e-6, max = 1.0))]
     pub temperature: f64,
-    /// The same along the iron fractions.
+    /// The same along the iron fractions; absent: a quarter.
     #[serde(default)]
     #[schemars(range(min = 1e-6, max = 1.0))]
     pub iron: Option<f64>,

@@ -18,6 +18,7 @@ fn scene() -> Value {
         "temperatures": {"chosen": {"from_k": 300, "to_k": 30_000, "count": 24}},
         "iron_mole_fraction": [0, 0.1, 1],
         "radiation": {"absorption_length_m": 1e-3},
+        "accuracy": {"temperature": 0.5, "iron": 1.0},
     })
 }
 
@@ -113,10 +114,21 @@ fn the_table_holds_the_gas_itself_and_tells_what_interpolation_costs() {
 }
 
 #[test]
+fn a_table_that_cannot_be_read_between_its_rows_is_told_without_a_limit_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let few = json!({"kind": "gasprop.scene", "version": 1, "gas": {"Ar": 1.0}, "pressure_pa": 101_325.0,
+        "temperatures": {"even": {"from_k": 300, "to_k": 30_000, "count": 2}}});
+    let (_, output) = run(folder.path(), "few", &few, &[]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("above the limit of 2.5e-1"), "{said}");
+}
+
+#[test]
 fn a_table_that_is_too_coarse_is_told_with_the_number_that_would_do() {
     let folder = tempfile::tempdir().unwrap();
     let mut strict = scene();
-    strict["accuracy"] = json!({"temperature": 0.01});
+    strict["accuracy"] = json!({"temperature": 0.01, "iron": 1.0});
     let (_, output) = run(folder.path(), "coarse", &strict, &[]);
     assert_eq!(output.status.code(), Some(3));
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
