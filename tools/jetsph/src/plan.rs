@@ -17,6 +17,7 @@ pub(crate) fn plan(scene: &Scene, run: &Assembled) -> Result<Plan, Failure> {
         state,
         march,
         left_out,
+        notes,
     } = run;
     let mut plan = Plan::new().count("particles", state.len() as u64);
     let frames = (scene.time.end_s / scene.output.frames_interval_s + AT).floor() as u64 + 1;
@@ -53,6 +54,9 @@ pub(crate) fn plan(scene: &Scene, run: &Assembled) -> Result<Plan, Failure> {
     }
     for (name, why) in left_out {
         plan = plan.left_out(name, why);
+    }
+    for note in notes {
+        plan = plan.note(note);
     }
     let soundless = scene.water.as_ref().map(|water| water.method) == Some(Method::DivergenceFree);
     if soundless && scene.gravity_m_s2.is_some() {

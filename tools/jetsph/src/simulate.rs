@@ -164,6 +164,9 @@ impl<'a> Simulation<'a> {
         if let Some(warning) = balance.unclosed(&self.start) {
             session.warn(warning);
         }
+        for warning in march.stages.iter().filter_map(|stage| stage.warning(state)) {
+            session.warn(warning);
+        }
         for (name, bytes) in state.memory() {
             session.memory(&name, bytes as u64);
         }

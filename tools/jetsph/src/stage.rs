@@ -207,6 +207,11 @@ pub trait Stage: Send {
         Vec::new()
     }
 
+    /// What must be known of a run before its results are used, in one sentence.
+    fn warning(&self, _state: &State) -> Option<String> {
+        None
+    }
+
     /// Bytes that the stage holds beside the columns.
     fn bytes(&self) -> usize {
         0

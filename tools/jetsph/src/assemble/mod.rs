@@ -1,5 +1,6 @@
 //! From a scene to sets of particles and the list of stages: the only place that asks what a scene contains.
 
+mod pouring;
 mod preview;
 mod solid;
 mod water;
@@ -24,6 +25,8 @@ pub struct Assembled {
     pub march: March,
     /// Physics that the scene leaves out, and why.
     pub left_out: Vec<(&'static str, String)>,
+    /// What a person should know before a run.
+    pub notes: Vec<String>,
 }
 
 /// Puts a scene together.
@@ -38,14 +41,15 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Vec<Fault>> {
     let mut state = State::new(scene.dimensions);
     let mut faults = Vec::new();
     let (solids, mut stages) = solid::solids(scene, &mut state, &mut faults);
-    let mut left_out = Vec::new();
+    let (mut left_out, mut notes) = (Vec::new(), Vec::new());
     let mut last = Vec::new();
     if let Some(of) = &scene.water {
         match water::water(scene, of, &mut state) {
-            Ok((stage, law, after)) => {
+            Ok(flowing) => {
+                let (law, stage) = (flowing.law, flowing.stage);
                 let meet = |solid| water::meet(of, law, solid, &mut state);
                 stages.splice(0..0, solids.iter().map(meet).collect::<Vec<_>>());
-                last = after;
+                (last, notes) = (flowing.last, flowing.notes);
                 if of.method == Method::DivergenceFree {
                     // Its pressure answers what all others do.
                     last.insert(0, stage);
@@ -86,6 +90,7 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Vec<Fault>> {
         state,
         march: March { stages },
         left_out,
+        notes,
     })
 }
 

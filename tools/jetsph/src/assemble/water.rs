@@ -5,52 +5,62 @@ use std::f64::consts::SQRT_2;
 use kernels::{CubicSpline, Kernel, Wendland};
 use particles::{Matter, POSITION, Set};
 use run::Fault;
-use run::property::{Arguments, Curve, Property};
+use run::property::Arguments;
 use shapes::Body;
 
+use super::pouring::Pouring;
 use super::solid::Made;
 use super::{plain_walls, vector};
-use crate::matter::lattice::{Filling, Lattice};
 use crate::matter::meeting::faces::{BEND_RATE, DEFORMATION_RATE, WARP_RATE};
 use crate::matter::meeting::sight::Sight;
 use crate::matter::meeting::skin::{DEFORMATION, Skin};
 use crate::matter::meeting::wet::Wet;
-use crate::matter::shares::shares;
 use crate::matter::water::friction::{Artificial, ArtificialViscosity};
 use crate::matter::water::near::LISTED;
 use crate::matter::water::nozzle::{Feed, LED, Nozzle};
 use crate::matter::water::outlet::Outlet;
-use crate::matter::water::tait::Tait;
+use crate::matter::water::tait::{Tait, Tension};
 use crate::matter::water::{DivergenceFree, Flow, Liquid, Water};
-use crate::scene::{KernelScene, Method, NozzleScene, OutletScene, Scene, WaterBody, WaterScene};
-use crate::stage::Stage;
+use crate::scene::{KernelScene, Method, NozzleScene, OutletScene, Scene, WaterScene};
+use crate::stage::{Stage, place_text};
 use crate::state::{ACCELERATION, DENSITY, MASS, State, VELOCITY};
 
 /// c over V of (18).
 const SOUND: f64 = 10.0;
 /// Parts of the run in each of which the speed of a nozzle is bounded for V.
 const PARTS: usize = 200;
+/// Part of B by which the pressure of a formula may miss what it stands for.
+const ROUNDING: f64 = 1e-9;
 
-/// The stage of the water, its law, and the stages that must come after all others.
-type Stages = (Box<dyn Stage>, Tait, Vec<Box<dyn Stage>>);
+/// The water of a scene.
+pub(super) struct Flowing {
+    /// Its stage.
+    pub(super) stage: Box<dyn Stage>,
+    /// Its equation of state.
+    pub(super) law: Tait,
+    /// Stages that must come after all others.
+    pub(super) last: Vec<Box<dyn Stage>>,
+    /// What a person should know of how it was filled.
+    pub(super) notes: Vec<String>,
+}
 
 /// Puts the water of a scene into the state.
-pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result<Stages, Fault> {
+pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result<Flowing, Fault> {
     let dimensions = scene.dimensions;
     let place = state.sets.len();
     let mut set = empty_set(of);
     let walls = plain_walls(&scene.walls, dimensions);
     let mut fastest = 0.0_f64;
-    let mut pressures = Vec::new();
+    let nozzles = nozzles(scene, of, place)?;
+    let mut filling = Pouring::new(scene, of, &nozzles);
     for (k, body) in of.bodies.iter().enumerate() {
-        let at = format!("/bodies/{k}");
-        let filled = fill(body, of, dimensions, &mut set, state);
-        pressures.extend(filled.map_err(|fault| fault.within(&at))?);
+        let filled = filling.fill(body, &mut set, state);
+        filled.map_err(|fault| fault.within(&format!("/bodies/{k}")))?;
     }
+    let (pressures, notes) = (filling.pressures, filling.notes);
     for u in set.column(&VELOCITY) {
         fastest = fastest.max(u[0].hypot(u[1]).hypot(u[2]));
     }
-    let nozzles = nozzles(scene, of, place)?;
     fastest = nozzles.iter().map(Nozzle::most).fold(fastest, f64::max);
     let law = Tait {
         density: of.density_kg_m3,
@@ -62,18 +72,12 @@ pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result
         exponent: of.exponent,
         tension: of.tension,
     };
-    for (row, pressure) in pressures.into_iter().enumerate() {
-        let density = match of.method {
-            Method::WeaklyCompressible => law.density_at(pressure),
-            Method::DivergenceFree => of.density_kg_m3,
-        };
-        set.column_mut(&DENSITY)[row] = density;
-        set.column_mut(&MASS)[row] *= density;
-    }
+    condense(of, &law, pressures, &mut set)?;
     state.sets.push(set);
     let last = ways(of, nozzles, law, place, state)?;
     let h = of.smoothing * of.spacing_m;
-    if of.method == Method::DivergenceFree {
+    let kind = (dimensions, of.kernel);
+    let stage = if of.method == Method::DivergenceFree {
         let liquid = Liquid {
             set: place,
             density: of.density_kg_m3,
@@ -81,19 +85,26 @@ pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result
             smoothing_length: h,
             walls,
         };
-        return Ok((soundless(liquid, (dimensions, of.kernel)), law, last));
-    }
-    let artificial = of.artificial_viscosity;
-    let water = Water {
-        set: place,
-        law,
-        smoothing_length: h,
-        artificial: artificial.map(|a| Artificial::new(&a, law.density, law.sound_speed, h)),
-        viscosity: of.viscosity_pa_s,
-        diffusion: of.density_diffusion,
-        walls,
+        soundless(liquid, kind)
+    } else {
+        let artificial = of.artificial_viscosity;
+        let water = Water {
+            set: place,
+            law,
+            smoothing_length: h,
+            artificial: artificial.map(|a| Artificial::new(&a, law.density, law.sound_speed, h)),
+            viscosity: of.viscosity_pa_s,
+            diffusion: of.density_diffusion,
+            walls,
+        };
+        sounding(water, kind)
     };
-    Ok((sounding(water, (dimensions, of.kernel)), law, last))
+    Ok(Flowing {
+        stage,
+        law,
+        last,
+        notes,
+    })
 }
 
 /// The stage of water with sound.
@@ -236,9 +247,18 @@ fn ways(
     state: &mut State,
 ) -> Result<Vec<Box<dyn Stage>>, Fault> {
     let mut last: Vec<Box<dyn Stage>> = Vec::new();
-    for (k, nozzle) in nozzles.into_iter().enumerate() {
-        let feed = Feed::new(nozzle);
+    for (k, nozzle) in nozzles.iter().enumerate() {
+        let feed = Feed::new(nozzle.clone());
         let mut feed = feed.map_err(|what| Fault::at(&format!("/nozzles/{k}/profile"), what))?;
+        let within = |other: &&Nozzle| feed.places().iter().any(|place| other.holds(*place));
+        if let Some(other) = nozzles[..k].iter().find(within) {
+            let what = format!(
+                "its water would stand in that of nozzle \"{}\", {:.3e} m long before its exit: move or turn one of them",
+                other.name,
+                other.led()
+            );
+            return Err(Fault::at(&format!("/nozzles/{k}/exit_m"), what));
+        }
         let filled = feed.fill(state);
         filled.map_err(|what| Fault::at(&format!("/nozzles/{k}/speed_m_s"), what.to_string()))?;
         last.push(Box::new(feed));
@@ -251,6 +271,50 @@ fn ways(
     Ok(last)
 }
 
+/// Gives particles the density of their pressures \[Pa\] in their bodies, and mass for volume.
+fn condense(
+    of: &WaterScene,
+    law: &Tait,
+    pressures: Vec<(usize, f64)>,
+    set: &mut Set,
+) -> Result<(), Fault> {
+    for (row, (body, pressure)) in pressures.into_iter().enumerate() {
+        let density = match of.method {
+            Method::WeaklyCompressible => {
+                let density = borne(law, pressure, set.column(&POSITION)[row]);
+                density.map_err(|what| Fault::at(&format!("/bodies/{body}/pressure_pa"), what))?
+            }
+            Method::DivergenceFree => of.density_kg_m3,
+        };
+        set.column_mut(&DENSITY)[row] = density;
+        set.column_mut(&MASS)[row] *= density;
+    }
+    Ok(())
+}
+
+/// The density at a pressure \[Pa\] of the start; says why there is none.
+fn borne(law: &Tait, pressure: f64, place: [f64; 3]) -> Result<f64, String> {
+    let stiffness = law.stiffness();
+    let least = match law.tension {
+        // A pressure of 0 that a formula misses by rounding.
+        Tension::None => -ROUNDING * stiffness,
+        Tension::Full => -stiffness * (1.0 - ROUNDING),
+    };
+    if pressure >= least {
+        return Ok(law.density_at(pressure));
+    }
+    let at = place_text(place);
+    Err(match law.tension {
+        Tension::None => format!(
+            "is {pressure} Pa at {at}; water that does not pull has no pressure below 0: take at least 0, or \"tension\": \"full\""
+        ),
+        Tension::Full => format!(
+            "is {pressure} Pa at {at}; the equation of state ends at {:.3e} Pa: take more, or a greater 'sound_speed_m_s'",
+            -stiffness
+        ),
+    })
+}
+
 /// c: told, or ten times what is told or found to be the speed.
 fn sound(of: &WaterScene, fastest: f64) -> Result<f64, Fault> {
     let speed = of.reference_speed_m_s.unwrap_or(fastest);
@@ -260,71 +324,6 @@ fn sound(of: &WaterScene, fastest: f64) -> Result<f64, Fault> {
     }
     let what = "nothing moves at the start: water wants 'reference_speed_m_s' or 'sound_speed_m_s'";
     Err(Fault::at("", what))
-}
-
-/// Fills a body with water whose masses are volumes yet; gives the pressure of each particle \[Pa\].
-fn fill(
-    of: &WaterBody,
-    water: &WaterScene,
-    dimensions: usize,
-    set: &mut Set,
-    state: &mut State,
-) -> Result<Vec<f64>, Fault> {
-    let filling = Filling {
-        spacing: water.spacing_m,
-        turned: 0.0,
-        jitter: 0.0,
-        dimensions,
-    };
-    let body = Body::new(&of.body, dimensions);
-    let lattice = Lattice::fill(&body, &filling).map_err(|what| Fault::at("/body", what))?;
-    if lattice.places.is_empty() {
-        let what = format!("holds no particle at a spacing of {} m", water.spacing_m);
-        return Err(Fault::at("/body", what));
-    }
-    let volume = volume(&body, &lattice, dimensions);
-    let compiled = |property: &Property, at: String| -> Result<(Curve, String), Fault> {
-        Ok((property.compile(&at, &["x", "y", "z", "r"])?, at))
-    };
-    let velocity: Vec<(Curve, String)> = of
-        .velocity_m_s
-        .iter()
-        .flatten()
-        .enumerate()
-        .map(|(axis, property)| compiled(property, format!("/velocity_m_s/{axis}")))
-        .collect::<Result<_, _>>()?;
-    let pressure = of
-        .pressure_pa
-        .as_ref()
-        .map(|property| compiled(property, "/pressure_pa".to_owned()))
-        .transpose()?;
-    let mut pressures = Vec::new();
-    for place in &lattice.places {
-        let at = Arguments::at(*place, 0.0);
-        let value = |(curve, name): &(Curve, String)| {
-            let value = curve.value(&at);
-            value.map_err(|e| Fault::at(name, e.to_string()))
-        };
-        let row = set.push(&mut state.ids);
-        set.column_mut(&POSITION)[row] = *place;
-        set.column_mut(&MASS)[row] = volume;
-        for (axis, curve) in velocity.iter().enumerate() {
-            set.column_mut(&VELOCITY)[row][axis] = value(curve)?;
-        }
-        pressures.push(pressure.as_ref().map_or(Ok(0.0), value)?);
-    }
-    Ok(pressures)
-}
-
-/// Volume of each particle of a body, in the plane its area: that of a cell where cells end where the body does, else the same part
-/// of what the body has \[m3\].
-fn volume(body: &Body, lattice: &Lattice, dimensions: usize) -> f64 {
-    let cell: f64 = lattice.cell[..dimensions].iter().product();
-    let shares = shares(body, lattice, dimensions);
-    if shares.is_empty() {
-        return cell;
-    }
-    cell * shares.iter().sum::<f64>() / shares.len() as f64
 }
 
 fn nozzle(

@@ -129,6 +129,13 @@ impl super::WaterScene {
                 );
                 faults.push(Fault::at(&format!("{at}/width_m"), what).or_at("/water/spacing_m"));
             }
+            if let Some(end) = nozzle.end_s.filter(|end| *end <= nozzle.start_s) {
+                let what = format!(
+                    "{end} s is not after 'start_s', {} s: the nozzle would never run",
+                    nozzle.start_s
+                );
+                faults.push(Fault::at(&format!("{at}/end_s"), what));
+            }
             if k >= NOZZLES_MOST {
                 let what = format!("at most {NOZZLES_MOST} nozzles");
                 faults.push(Fault::at(&at, what));

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+mod judged;
 mod soundless;
 
 use artefact::{Checkpoint, Header, Version};

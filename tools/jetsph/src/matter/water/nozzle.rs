@@ -17,6 +17,8 @@ pub const LED: Column<u8> = Column::new("led", "1", 0).saved();
 
 /// Way of what comes in within a step, in spacings: a column takes in one particle a step at most.
 const LONGEST: f64 = 0.5;
+/// Part of the spacing by which a place is inside of a nozzle or not.
+const EDGE: f64 = 1e-6;
 
 /// What a scene says of a nozzle.
 #[derive(Debug, Clone)]
@@ -60,6 +62,28 @@ impl Nozzle {
         let [x, y, z] = self.traverse;
         self.fastest + x.hypot(y).hypot(z)
     }
+
+    /// Length of the part before its exit where it leads particles \[m\].
+    #[must_use]
+    pub fn led(&self) -> f64 {
+        let (_, spacing, support) = self.matter;
+        spacing * ((support / spacing).ceil() + 1.0)
+    }
+
+    /// Whether a place is where it leads particles at the start.
+    #[must_use]
+    pub fn holds(&self, place: [f64; 3]) -> bool {
+        let from = [0, 1, 2].map(|k| place[k] - self.exit[k]);
+        let dot = |axis: [f64; 3]| -> f64 { (0..3).map(|k| from[k] * axis[k]).sum() };
+        let margin = EDGE * self.matter.1;
+        let along = dot(self.direction);
+        let [a, b] = self.across.map(dot);
+        let off = match self.dimensions {
+            2 => a.abs(),
+            _ => a.hypot(b),
+        };
+        along < -margin && along > margin - self.led() && off < 0.5 * self.width - margin
+    }
 }
 
 /// A column of particles.
@@ -93,7 +117,7 @@ impl Feed {
     /// # Errors
     /// Says why its profile is none.
     pub fn new(nozzle: Nozzle) -> Result<Self, String> {
-        let (density, spacing, support) = nozzle.matter;
+        let (density, spacing, _) = nozzle.matter;
         let (places, area) = cross_section(nozzle.width, spacing, nozzle.dimensions);
         let share = |r: f64| match &nozzle.profile {
             None => Ok(1.0),
@@ -106,7 +130,7 @@ impl Feed {
             }
         };
         let mut lanes = Vec::new();
-        let length = spacing * ((support / spacing).ceil() + 1.0);
+        let length = nozzle.led();
         for [a, b] in places {
             let offset = [0, 1, 2].map(|k| a * nozzle.across[0][k] + b * nozzle.across[1][k]);
             let share = share(2.0 * a.hypot(b) / nozzle.width)?;
@@ -195,6 +219,25 @@ impl Feed {
         self.entered += self.mass;
         self.lanes[lane].last = along;
         state.exchanges += 1;
+    }
+
+    /// Where particles stand before the first step \[m\].
+    #[must_use]
+    pub fn places(&self) -> Vec<[f64; 3]> {
+        let Nozzle {
+            exit,
+            direction,
+            matter: (_, spacing, _),
+            ..
+        } = self.nozzle;
+        let rows = (self.length / spacing).round() as usize;
+        let along = (0..rows).map(|row| (row as f64 + 0.5) * spacing - self.length);
+        let place = |along: f64, lane: &Lane| {
+            [0, 1, 2].map(|k| exit[k] + lane.offset[k] + along * direction[k])
+        };
+        along
+            .flat_map(|along| self.lanes.iter().map(move |lane| place(along, lane)))
+            .collect()
     }
 
     /// Fills the led part before the first step.
@@ -328,6 +371,16 @@ impl Stage for Feed {
             unit: "kg",
             value: self.entered,
         }]
+    }
+
+    fn warning(&self, state: &State) -> Option<String> {
+        let (from, _) = self.nozzle.runs;
+        (state.time <= from && from > 0.0).then(|| {
+            format!(
+                "nozzle {} brought no water: its 'start_s' of {from} s is not before the end at {} s",
+                self.nozzle.name, state.time
+            )
+        })
     }
 
     fn save(&self) -> Vec<f64> {

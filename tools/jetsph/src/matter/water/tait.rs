@@ -30,7 +30,8 @@ pub struct Tait {
 impl Tait {
     /// B = c^2 rho0/n \[Pa\] (17).
     #[inline(always)]
-    fn stiffness(&self) -> f64 {
+    #[must_use]
+    pub fn stiffness(&self) -> f64 {
         self.sound_speed * self.sound_speed * self.density / self.exponent
     }
 
