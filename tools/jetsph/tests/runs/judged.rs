@@ -1,6 +1,6 @@
 //! What of the water of a scene is put right, refused, or told at the end.
 
-use super::parsed;
+use super::{begun, parsed};
 use jetsph::assemble::{Assembled, assemble};
 use jetsph::state::MASS;
 
@@ -134,4 +134,34 @@ fn nozzles_that_never_run_are_refused_or_told() {
     };
     assert!(told(0.4).unwrap().contains("brought no water"));
     assert_eq!(told(0.6), None);
+}
+
+#[test]
+fn water_that_is_compressed_much_is_told() {
+    let plate = r#", "walls": [{"name": "plate", "body": {"half_space": {"point_m": [0, 0], "normal": [0, 1]}}}]"#;
+    let told = |sound: f64| {
+        let block = body([-6, 0], [6, 12], r#", "velocity_m_s": [0, -5]"#);
+        let mut run = begun(&scene(
+            &block,
+            &format!(r#", "sound_speed_m_s": {sound}"#),
+            plate,
+        ));
+        while run.state.time < 2e-3 {
+            let limit = run.march.limit(&run.state);
+            let dt = limit.map_or(1e-5, |limit| limit.seconds.min(1e-5));
+            run.march
+                .step(&mut run.state, dt, &mut |_, work| work())
+                .unwrap();
+            run.state.time += dt;
+        }
+        let stages = run.march.stages.iter();
+        stages.filter_map(|stage| stage.warning(&run.state)).next()
+    };
+    let slow = told(5.0).unwrap();
+    assert!(
+        slow.contains("the speed of sound of 5 m/s is too low"),
+        "{slow}"
+    );
+    // Ten times as fast as the water: the rule of the source.
+    assert_eq!(told(50.0), None);
 }

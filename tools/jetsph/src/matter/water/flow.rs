@@ -5,6 +5,7 @@ use particles::{Column, Set, sweep};
 use shapes::Body;
 
 use super::around::Around;
+use super::compression::Compression;
 use super::diffusion::DensityDiffusion;
 use super::friction::Artificial;
 use super::near::LISTED;
@@ -53,6 +54,7 @@ pub struct Flow<const D: usize, K> {
     /// The force of all walls on the water and what friction takes.
     course: Course<4>,
     entry: Entry,
+    compression: Compression,
 }
 
 impl<const D: usize, K: Kernel> Flow<D, K> {
@@ -70,6 +72,7 @@ impl<const D: usize, K: Kernel> Flow<D, K> {
             walls: Walls::new(water.walls.iter().map(|(name, _)| name.clone()).collect()),
             course: Course::default(),
             entry: Entry::default(),
+            compression: Compression::default(),
             water,
         }
     }
@@ -155,6 +158,7 @@ impl<const D: usize, K: Kernel> Stage for Flow<D, K> {
         let law = self.water.law;
         let set = &mut state.sets[self.water.set];
         self.look(set, exchanges, |density| law.pressure(density));
+        self.compression.over(dt, set, &law);
         let forces = self.all_forces();
         let mut acceleration = set.take(&ACCELERATION);
         let mass = set.column(&MASS);
@@ -201,6 +205,10 @@ impl<const D: usize, K: Kernel> Stage for Flow<D, K> {
         self.walls.figures(D)
     }
 
+    fn warning(&self, _: &State) -> Option<String> {
+        self.compression.warning(&self.water.law)
+    }
+
     fn bytes(&self) -> usize {
         self.around.bytes()
     }
@@ -210,6 +218,7 @@ impl<const D: usize, K: Kernel> Stage for Flow<D, K> {
             &self.entry.save()[..],
             &self.course.last(),
             &[self.around.near.save()],
+            &self.compression.save(),
         ]
         .concat();
         saved.extend(self.walls.save());
@@ -219,7 +228,8 @@ impl<const D: usize, K: Kernel> Stage for Flow<D, K> {
     fn restore(&mut self, state: &State, saved: &[f64]) {
         let listed = state.sets[self.water.set].column(&LISTED);
         let rest = self.entry.restore(saved);
-        if let [seen, walls @ ..] = self.course.restore(rest) {
+        if let [seen, whole, much, most, walls @ ..] = self.course.restore(rest) {
+            self.compression = Compression::restored([*whole, *much, *most]);
             self.around.near.restore(listed, *seen);
             self.walls.restore(walls);
         }

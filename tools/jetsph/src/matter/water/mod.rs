@@ -14,10 +14,11 @@
 //! - [`tait`] is the equation of state, [`friction`] artificial and true viscosity, [`diffusion`] that of density;
 //! - [`divergence_free`] is the other stage, of water without sound;
 //! - [`near`] keeps neighbours, `pairs` sums over them, [`images`] are plain walls, [`flow`] is the stage, `sums`
-//!   what it sums;
+//!   what it sums, `compression` whether the water stays nearly incompressible;
 //! - [`nozzle`] brings water in, [`outlet`] takes it away.
 
 mod around;
+mod compression;
 pub mod diffusion;
 pub mod divergence_free;
 mod exchange;
