@@ -121,6 +121,8 @@ pub struct Sums {
     /// Heat of each cell in this interval, and since the first frame \[J\], `[ways][cells]`.
     pub(crate) cells: Vec<Vec<f64>>,
     pub(crate) whole: Vec<Vec<f64>>,
+    /// Heat that came to metal beyond the map since the first frame \[J\], `[ways]`.
+    pub(crate) beyond: Vec<f64>,
     /// Where this interval and the first one begin, and the time of the last frame \[s\].
     pub(crate) times: [f64; 3],
 }
@@ -135,6 +137,7 @@ impl HeatMaps {
         let none = vec![vec![0.0; layout.len()]; ways.len()];
         let sums = Sums {
             last: vec![Vec::new(); ways.len()],
+            beyond: vec![0.0; ways.len()],
             cells: none.clone(),
             whole: none,
             ..Sums::default()
@@ -181,6 +184,7 @@ impl HeatMaps {
             last,
             cells,
             whole,
+            beyond,
             ..
         } = &mut self.sums;
         for (n, id) in seen.id.iter().enumerate() {
@@ -200,9 +204,15 @@ impl HeatMaps {
                 if !counts || gained == 0.0 {
                     continue;
                 }
-                for (cell, part) in seen.places(n).flat_map(|place| self.layout.shares(place)) {
-                    cells[way][cell] += part * gained;
-                    whole[way][cell] += part * gained;
+                for place in seen.places(n) {
+                    let mut shares = self.layout.shares(place).peekable();
+                    if shares.peek().is_none() {
+                        beyond[way] += gained;
+                    }
+                    for (cell, part) in shares {
+                        cells[way][cell] += part * gained;
+                        whole[way][cell] += part * gained;
+                    }
                 }
             }
         }
@@ -255,6 +265,13 @@ impl HeatMaps {
     pub fn totals(&self) -> impl Iterator<Item = (&str, f64)> {
         let ways = self.ways.iter().map(String::as_str);
         ways.zip(self.sums.whole.iter().map(|cells| cells.iter().sum()))
+    }
+
+    /// Each way with the heat that came to metal beyond the map \[J\], where any did.
+    pub fn beyond(&self) -> impl Iterator<Item = (&str, f64)> {
+        let ways = self.ways.iter().map(String::as_str);
+        let all = ways.zip(self.sums.beyond.iter().copied());
+        all.filter(|(_, heat)| *heat != 0.0)
     }
 
     /// Columns of the frames, one for each way of heat.
@@ -381,6 +398,25 @@ mod tests {
         let mean = maps.mean().unwrap();
         let sum = column(&mean).iter().sum::<f64>() * D * D * 0.3;
         assert!((sum / found - 1.0).abs() < 1e-12, "{sum} {found}");
+    }
+
+    #[test]
+    fn heat_beyond_the_map_is_told_and_no_heat_is_lost_with_it() {
+        let mut maps = maps(0.0);
+        let seen = |heat: f64| Received {
+            place: vec![[4.2e-3, 3.1e-3], [-2e-3, 3e-3]],
+            id: vec![0, 1],
+            droplet: vec![false; 2],
+            heat: vec![vec![heat, 3.0 * heat]],
+            mirror: None,
+        };
+        maps.take(&seen(0.0), 0.0);
+        assert_eq!(maps.beyond().next(), None);
+        maps.take(&seen(2.0), 1.0);
+        let (_, within) = maps.totals().next().unwrap();
+        let (way, beyond) = maps.beyond().next().unwrap();
+        assert_eq!(way, "heat_from_powder");
+        assert!((within - 2.0).abs() < 1e-12 && (beyond - 6.0).abs() < 1e-12);
     }
 
     #[test]

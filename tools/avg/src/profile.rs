@@ -29,6 +29,9 @@ const PLACES_LEAST: f64 = 8.0;
 /// Places on the way of one spacing along a ring.
 const PLACES: f64 = 2.0;
 
+/// Least part of the places and frames of a ring that have metal.
+const COVERED: f64 = 0.95;
+
 /// Rings about the axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rings {
@@ -173,6 +176,21 @@ impl Profile {
         found / (places.len() as f64 * f64::from(self.frames.max(1)))
     }
 
+    /// What to tell of rings that metal does not cover: their heights are those of the metal that there is, or 0.
+    #[must_use]
+    pub fn uncovered(&self, rings: &Rings) -> Option<String> {
+        let short = |i: &usize| self.metal_share(rings, *i) < COVERED;
+        let count = (0..rings.len()).filter(short).count();
+        let first = (0..rings.len()).find(short)?;
+        Some(format!(
+            "profile: {count} of {} rings, first that up to r = {:.3} mm, have metal at less than {:.0} % of their places and \
+             times: their heights are of that alone, or 0, and so are the volumes; take a smaller 'radius_m'",
+            rings.len(),
+            1e3 * rings.outer[first],
+            100.0 * COVERED
+        ))
+    }
+
     /// Volume between the surface and z = 0 \[m3\]: above less below, and below alone.
     #[must_use]
     pub fn volumes(&self, rings: &Rings) -> [f64; 2] {
@@ -251,6 +269,21 @@ mod tests {
             profile.add(&rings, cloud, &cells, smoothing);
         }
         profile.table(&rings, smoothing)
+    }
+
+    #[test]
+    fn rings_that_reach_beyond_the_metal_are_told() {
+        let (cloud, smoothing) = metal(0.5e-3, |_, _| 0.0);
+        let uncovered = |radius: f64| {
+            let rings = Rings::new(radius, smoothing.spacing);
+            let mut profile = Profile::new(&rings);
+            let cells = Cells::new(&cloud, 2.0 * smoothing.length);
+            profile.add(&rings, &cloud, &cells, &smoothing);
+            profile.uncovered(&rings)
+        };
+        assert_eq!(uncovered(4e-3), None);
+        let told = uncovered(9e-3).unwrap();
+        assert!(told.contains("of 18 rings"), "{told}");
     }
 
     fn worst(table: &Table, name: &str, exact: impl Fn(f64) -> f64) -> f64 {

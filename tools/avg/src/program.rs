@@ -141,6 +141,12 @@ fn mean_map(session: &mut Session, plan: &Plan, maps: &HeatMaps) -> Result<(), F
     for (way, heat) in maps.totals() {
         session.closing(&format!("map_{way}"), "J", heat);
     }
+    for (way, heat) in maps.beyond() {
+        session.closing(&format!("beyond_map_{way}"), "J", heat);
+        session.note(format!(
+            "{heat:.3e} J of {way} came to metal beyond the map: \"map_{way}\" is without it"
+        ));
+    }
     Ok(())
 }
 
@@ -216,6 +222,9 @@ fn close(session: &mut Session, plan: &Plan, averages: &Averages) {
         let [net, below] = profile.volumes(rings);
         session.closing("profile_net_volume", "m3", net);
         session.closing("profile_depression", "m3", below);
+        if let Some(what) = profile.uncovered(rings) {
+            session.warn(what);
+        }
     }
     if let Some(period) = plan.period {
         session.closing("droplet_period", "s", period);

@@ -54,6 +54,7 @@ pub fn save(checkpoint: &mut Checkpoint, averaging: &Averaging<'_>, done: usize)
         checkpoint.put_f64("heat.last", &sums.last.concat());
         checkpoint.put_f64("heat.cells", &sums.cells.concat());
         checkpoint.put_f64("heat.whole", &sums.whole.concat());
+        checkpoint.put_f64("heat.beyond", &sums.beyond);
     }
     Ok(())
 }
@@ -183,6 +184,7 @@ fn restore_heat(checkpoint: &mut Checkpoint, fresh: &Sums) -> Result<Sums> {
     let last = checkpoint.f64("heat.last")?;
     let own = checkpoint.f64("heat.cells")?;
     let whole = checkpoint.f64("heat.whole")?;
+    let beyond = checkpoint.f64("heat.beyond")?;
     let found = [
         shown.len(),
         frames.len(),
@@ -190,8 +192,9 @@ fn restore_heat(checkpoint: &mut Checkpoint, fresh: &Sums) -> Result<Sums> {
         last.len(),
         own.len(),
         whole.len(),
+        beyond.len(),
     ];
-    let expected = [ids.len(), 1, 3, ways * ids.len(), cells, cells];
+    let expected = [ids.len(), 1, 3, ways * ids.len(), cells, cells, ways];
     if found != expected {
         return Err(Error::Damaged {
             path: "checkpoint".into(),
@@ -212,6 +215,7 @@ fn restore_heat(checkpoint: &mut Checkpoint, fresh: &Sums) -> Result<Sums> {
         last: by_way(&last),
         cells: by_way(&own),
         whole: by_way(&whole),
+        beyond,
         times: [times[0], times[1], times[2]],
     })
 }
