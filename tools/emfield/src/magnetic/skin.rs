@@ -30,13 +30,19 @@ struct Widest {
 impl<const D: usize> Problem<'_, D> {
     /// Says where points do not resolve the skin of a conductor.
     pub(crate) fn warn(&self, session: &mut Session) {
+        let lasts = self.parameters.omega.map_or(f64::INFINITY, f64::recip);
+        self.warn_over(lasts, session);
+    }
+
+    /// The same in fields that change in a time of `lasts` \[s\]: 1/omega of a sine.
+    pub(crate) fn warn_over(&self, lasts: f64, session: &mut Session) {
         self.warn_walls(session);
-        let Some(omega) = self.parameters.omega else {
+        if lasts.is_infinite() {
             return;
-        };
+        }
         for (m, mu_sigma) in self.conductors.mu_sigma.iter().enumerate() {
             if *mu_sigma > 0.0 {
-                let skin = (2.0 / (omega * mu_sigma)).sqrt();
+                let skin = (2.0 * lasts / mu_sigma).sqrt();
                 let name = &self.cloud.media[m];
                 if let Some(what) = self.unresolved(m as u16, skin) {
                     session.warn(format!(

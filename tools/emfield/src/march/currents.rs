@@ -2,12 +2,12 @@
 
 use artefact::Checkpoint;
 use krylov::{Ending, Rescue, Solved};
-use run::property::{Arguments, Curve, Property};
 use run::{Failure, Session};
 
 use super::growth::Growth;
 use super::scheme::{March, Settled, slope};
 use super::steps::Steps;
+use super::wave::Wave;
 use crate::magnetic::charge::fields::Lack;
 use crate::magnetic::problem::Problem;
 use crate::magnetic::saturation::bodies;
@@ -66,6 +66,7 @@ pub(crate) fn march<const D: usize, const K: usize>(
     mut write: impl FnMut(f64, Found, &mut Session) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let (steps, wave) = (Steps::new(transient, output), Wave::new(transient)?);
+    judge(problem, &wave, &steps, session)?;
     let drive = session.timed("source", || problem.drive::<K>());
     let flux = problem.source.flux(&problem.cloud.position);
     let charges = problem.charges(session)?;
@@ -125,35 +126,26 @@ pub(crate) fn march<const D: usize, const K: usize>(
     Ok(())
 }
 
+/// Says where steps do not follow the wave, and points not what it drives.
+fn judge<const D: usize>(
+    problem: &Problem<'_, D>,
+    wave: &Wave,
+    steps: &Steps,
+    session: &mut Session,
+) -> Result<(), Failure> {
+    problem.warn_over(wave.lasts(steps)?, session);
+    if let Some(doubt) = wave.doubt(steps)? {
+        session.warn(doubt);
+    }
+    Ok(())
+}
+
 /// Tells what the march took.
 fn close(steps: &Steps, effort: Effort, session: &mut Session) {
     session.steps(steps.count());
     session.closing("step", "s", steps.longest());
     session.closing("products_march", "1", effort.products as f64);
     session.closing("residual_march", "1", effort.residual);
-}
-
-/// What coils and applied fields are multiplied by.
-struct Wave(Curve);
-
-impl Wave {
-    fn new(transient: &Transient) -> Result<Self, Failure> {
-        let on = Property::Constant(1.0);
-        let wave = transient.wave.as_ref().unwrap_or(&on);
-        Ok(Self(wave.compile("/eddy_currents/transient/wave", &["t"])?))
-    }
-
-    /// Whether it has one value at start, middle and end of a step.
-    fn stands(&self, from: f64, to: f64) -> Result<bool, Failure> {
-        let start = self.at(from)?;
-        let others = [self.at(0.5 * (from + to))?, self.at(to)?];
-        Ok(others.iter().all(|w| w.to_bits() == start.to_bits()))
-    }
-
-    fn at(&self, time: f64) -> Result<f64, Failure> {
-        let value = self.0.value(&Arguments::at([0.0; 3], time));
-        value.map_err(|error| Failure::Other(format!("wave at {time:.6e} s: {error}")))
-    }
 }
 
 fn failed(error: &dyn std::fmt::Display) -> Failure {

@@ -3,6 +3,7 @@
 //! - `steps`: even ones between the instants that are asked for;
 //! - [`scheme`]: two stages of an implicit Runge-Kutta method;
 //! - `currents`: eddy currents from rest to the end; `growth`: what of them grows though nothing drives it;
+//!   `wave`: what drives them, and whether steps follow it;
 //! - `liquid`: a liquid in a room or between faces, with the fields that act on it and its heat.
 
 pub(crate) mod currents;
@@ -10,3 +11,4 @@ mod growth;
 pub(crate) mod liquid;
 pub mod scheme;
 pub(crate) mod steps;
+mod wave;

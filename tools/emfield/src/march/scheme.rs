@@ -13,7 +13,7 @@
 use krylov::{Error, Rescue, Rule, Solved};
 
 /// `1 - 1/sqrt(2)`: with it the method is of second order and the last stage is the next state.
-const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+pub(crate) const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 
 /// What a stage of a march of `step` \[s\] multiplies its unknowns by \[1/s\].
 #[must_use]

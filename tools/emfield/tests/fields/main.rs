@@ -10,6 +10,7 @@ mod grading;
 mod halves;
 mod magnets;
 mod open;
+mod paces;
 mod saturation;
 mod skins;
 mod ways;

@@ -130,14 +130,20 @@ impl<const D: usize> March<D> {
             |liquid: &Liquid<D>| Level::new(&liquid.room, &liquid.position[..liquid.surface()]);
         let mut now = level(liquid);
         match (&now, self.course.volume) {
-            (Some(found), None) => self.course.volume = Some(found.volume),
+            (Some(found), None) => {
+                self.course.volume = Some(found.volume);
+                self.course.keep(found.volume, found.volume);
+            }
             (Some(found), Some(volume)) => {
+                let before = found.volume;
                 let free = liquid.room.free().map_or(0, |f| f.0);
                 let across = (0..D).filter(|k| *k != free);
                 let base: f64 = across.map(|k| liquid.room.length(k)).product();
                 // A surface that rises evenly by a height encloses that much more over its shadow, however steep.
                 liquid.lift((volume - found.volume) / base);
                 now = level(liquid);
+                let after = now.as_ref().map_or(volume, |level| level.volume);
+                self.course.keep(before, after);
             }
             (None, _) => {}
         }

@@ -13,6 +13,8 @@ use crate::march::steps::Steps;
 pub(super) struct Course {
     /// Volume at the start \[m3; m2 in a plane\], where it is known and kept.
     pub(super) volume: Option<f64>,
+    /// Volume that was found last, and what all moves of the surface have put back \[the same\].
+    kept: [f64; 2],
     pub(super) effort: Effort,
     /// Steps that were divided.
     pub(super) divided: u64,
@@ -21,7 +23,19 @@ pub(super) struct Course {
     pub(super) renewed: Renewed,
 }
 
+/// Part of the volume that moves of the surface may put back in a march.
+const PUT_BACK: f64 = 1e-2;
+
 impl Course {
+    /// Notes the volume that was found before the surface is moved to put it right, and after.
+    pub(super) fn keep(&mut self, before: f64, after: f64) {
+        let [found, put_back] = &mut self.kept;
+        *found = after;
+        if let Some(volume) = self.volume {
+            *put_back += volume - before;
+        }
+    }
+
     /// Keeps it, and the liquid.
     pub(super) fn save<const D: usize>(&self, liquid: &Liquid<D>, checkpoint: &mut Checkpoint) {
         for (name, vectors) in [
@@ -35,7 +49,10 @@ impl Course {
         }
         checkpoint.put_f64("pressure", &liquid.pressure);
         checkpoint.put_f64("stress", &liquid.stress);
-        let volume: Vec<f64> = self.volume.into_iter().collect();
+        let kept = self
+            .volume
+            .map(|volume| [volume, self.kept[0], self.kept[1]]);
+        let volume: Vec<f64> = kept.into_iter().flatten().collect();
         checkpoint.put_f64("volume", &volume);
         let e = &self.effort;
         checkpoint.put_f64("residual", &[e.residual]);
@@ -68,7 +85,9 @@ impl Course {
         }
         liquid.pressure = checkpoint.f64("pressure")?;
         liquid.stress = checkpoint.f64("stress")?;
-        self.volume = checkpoint.f64("volume")?.first().copied();
+        if let [volume, found, put_back] = checkpoint.f64("volume")?[..] {
+            (self.volume, self.kept) = (Some(volume), [found, put_back]);
+        }
         let residual = checkpoint.f64("residual")?;
         self.effort.residual = residual.first().copied().unwrap_or(0.0);
         if let [taken, divided, products, unsolved, unsettled, added, merged] =
@@ -89,7 +108,48 @@ impl Course {
         session.closing("products", "1", self.effort.products as f64);
         session.closing("residual", "1", self.effort.residual);
         if let Some(volume) = self.volume {
-            session.closing("volume", unit, volume);
+            let [found, put_back] = self.kept;
+            session.closing("volume", unit, found);
+            session.closing("volume_put_back", unit, put_back);
+            if let Some(doubt) = self.doubt(volume, unit) {
+                session.warn(doubt);
+            }
         }
+    }
+
+    /// What to tell where moves of the surface have put much back.
+    fn doubt(&self, volume: f64, unit: &str) -> Option<String> {
+        let [_, put_back] = self.kept;
+        (put_back.abs() > PUT_BACK * volume).then(|| {
+            format!(
+                "the march {} {:.1} % of the volume of {volume:.3e} {unit}, which moves of the surface put back evenly: take a \
+                 smaller spacing or step",
+                if put_back > 0.0 { "lost" } else { "won" },
+                100.0 * put_back.abs() / volume
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn volume_that_is_put_back_is_summed_and_told_above_a_hundredth() {
+        let mut course = Course {
+            volume: Some(2.0),
+            ..Course::default()
+        };
+        course.keep(1.99, 2.0);
+        course.keep(2.005, 1.999);
+        assert!((course.kept[0] - 1.999).abs() < 1e-15 && (course.kept[1] - 0.005).abs() < 1e-15);
+        assert_eq!(course.doubt(2.0, "m3"), None);
+        course.keep(1.98, 2.0);
+        let told = course.doubt(2.0, "m3").unwrap_or_default();
+        assert!(
+            told.starts_with("the march lost 1.2 % of the volume of 2.000e0 m3"),
+            "{told}"
+        );
     }
 }

@@ -277,7 +277,9 @@ impl March {
                 }
             }
         }
+        let before = totals.volume;
         if let Some((outline, totals)) = self.outline(liquid) {
+            self.course.keep(before, totals.volume);
             self.centre = totals.centre;
             let mut row = self.acting.row(totals.row(&self.matter, &outline));
             if let Some(heat) = &mut self.heat {

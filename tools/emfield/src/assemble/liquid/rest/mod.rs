@@ -39,6 +39,17 @@ pub(crate) fn rest(
     }
 }
 
+/// Harmonics of a shape so many spacings large, as far as there are.
+fn harmonics(asked: f64, session: &mut Session) -> usize {
+    let asked = asked.round();
+    if asked > MOST as f64 {
+        session.note(format!(
+            "the spacing asks for {asked} harmonics of the shape, of which {MOST} are taken: the residual tells what they leave"
+        ));
+    }
+    asked.clamp(FEWEST as f64, MOST as f64) as usize
+}
+
 /// A drop in a uniform field.
 fn drawn(
     scene: &Scene,
@@ -56,8 +67,7 @@ fn drawn(
     let kind = rest
         .relative_permittivity
         .map_or(Kind::Conductor, Kind::Dielectric);
-    let harmonics = (radius / scene.points.spacing_m).round();
-    let harmonics = harmonics.clamp(FEWEST as f64, MOST as f64) as usize;
+    let harmonics = harmonics(radius / scene.points.spacing_m, session);
     let sought = Sought { kind, harmonics };
     let found = session.timed("equilibrium", || equilibrium::rest(sought, capillary));
     let at = format!("{applied} V/m (Ca = {capillary:.4})");
