@@ -62,6 +62,10 @@ impl Materials {
         if self.len() == 1 {
             return (vec![whole(0)], 0.0);
         }
+        // The whole link lies within the distance of the nearest surface.
+        if self.clear(link.at(0.5)) > (0.5 + BEYOND) * length(link.d) {
+            return (vec![whole(self.at(a))], 0.0);
+        }
         let mut current = whole(self.at(a));
         let (mut found, mut contact) = (Vec::new(), 0.0);
         for part in 0..SEARCH {
