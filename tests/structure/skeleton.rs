@@ -23,14 +23,10 @@ const ROOMS: [(&str, &[&str]); 5] = [
 ];
 
 /// Rooms that a stage lacks, or has under another name.
-const LACKING: [(&str, &str); 7] = [
+const LACKING: [(&str, &str); 3] = [
     ("avg", "march or iterate"),
-    ("emfield", "frames"),
     ("gasprop", "frames"),
     ("gasprop", "march or iterate"),
-    ("heatsph", "frames"),
-    ("heatsph", "program"),
-    ("jetsph", "program"),
 ];
 
 /// Modules that may read the scene: the program around the physics.
@@ -43,7 +39,7 @@ const PROGRAM: [&str; 11] = [
 const SETUP: &str = "setup";
 
 /// Modules of physics that read the scene all the same.
-const READING: [(&str, &str); 21] = [
+const READING: [(&str, &str); 18] = [
     ("emfield", "cloud"),
     ("emfield", "cloud/build"),
     ("emfield", "cloud/build/cells"),
@@ -51,8 +47,6 @@ const READING: [(&str, &str); 21] = [
     ("emfield", "cloud/build/inner"),
     ("emfield", "cloud/build/layers"),
     ("emfield", "cloud/layout"),
-    ("emfield", "output"),
-    ("emfield", "output/sample"),
     ("heatsph", "boundary/compile"),
     ("heatsph", "cloud"),
     ("heatsph", "cloud/cut"),
@@ -63,7 +57,6 @@ const READING: [(&str, &str); 21] = [
     ("heatsph", "material"),
     ("heatsph", "material/stored"),
     ("heatsph", "operator"),
-    ("heatsph", "output"),
     ("heatsph", "steady"),
 ];
 

@@ -5,16 +5,16 @@
 //! - [`scene`] is what a person writes; [`cloud`] fills the domain with points, on which [`stencils`] stand;
 //! - [`electric`] and [`magnetic`] hold the equations of fields, [`liquid`] those of a liquid that they move;
 //! - [`assemble`] leads a scene there and back, [`march`] in time;
-//! - [`output`] writes.
+//! - [`frames`] writes.
 
 pub mod assemble;
 pub mod cloud;
 pub mod electric;
+pub mod frames;
 pub mod geometry;
 pub mod liquid;
 pub mod magnetic;
 pub mod march;
-pub mod output;
 pub mod program;
 pub mod scene;
 pub mod solve;

@@ -12,23 +12,23 @@
 //! - [`course`] finds where what varies in time jumps or peaks, and what heat is prescribed;
 //! - [`mod@march`] takes it through time (explicit, stabilised or implicit), [`steady`] to its end at once, with
 //!   the solves of [`solve`];
-//! - [`simulate`] leads the march, [`output`] writes.
+//! - [`simulate`] leads the march, [`frames`] writes.
 
 pub mod assemble;
 pub mod boundary;
 pub mod cloud;
 pub mod course;
+pub mod frames;
 pub mod march;
 pub mod material;
 pub mod monitor;
 pub mod operator;
-pub mod output;
 pub mod pace;
+pub mod program;
 pub mod scene;
 pub mod simulate;
 pub mod solve;
 pub mod source;
-pub mod stage;
 pub mod steady;
 pub mod system;
 pub mod torches;

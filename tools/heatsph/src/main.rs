@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    run::main::<heatsph::stage::HeatSph>()
+    run::main::<heatsph::program::HeatSph>()
 }

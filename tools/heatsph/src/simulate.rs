@@ -4,10 +4,10 @@ use run::{Failure, Session};
 
 use crate::course::Course;
 use crate::course::prescribed::Heat;
+use crate::frames::{Event, Output};
 use crate::march::choice::{Steps, method};
 use crate::march::control::{self, even, suited, toward};
 use crate::march::{Method, State, StepError, too_cold};
-use crate::output::{Event, Output};
 use crate::pace::Pace;
 use crate::scene::Scene;
 use crate::scene::method::Beyond;

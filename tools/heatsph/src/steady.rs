@@ -3,8 +3,8 @@
 
 use run::{Failure, Session};
 
+use crate::frames::{Event, Output};
 use crate::march::{State, too_cold};
-use crate::output::{Event, Output};
 use crate::scene::{Scene, Steady};
 use crate::solve::{Effort, Goal, Problem, SolveError, Solver};
 use crate::system::{Rates, System, extent};

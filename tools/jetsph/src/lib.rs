@@ -18,12 +18,12 @@ pub mod matter;
 pub mod memory;
 pub mod motion;
 mod plan;
+pub mod program;
 pub mod resume;
 pub mod scene;
 pub mod simulate;
 pub mod stage;
 pub mod state;
-pub mod tool;
 mod trial;
 
-pub use tool::JetSph;
+pub use program::JetSph;

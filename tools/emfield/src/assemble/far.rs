@@ -9,7 +9,7 @@ use run::{Failure, Session};
 
 use super::steady;
 use crate::cloud::{Cloud, SurfacePoint};
-use crate::output::{Column, Found};
+use crate::frames::{Column, Found};
 use crate::scene::Scene;
 
 /// How many times as far apart points are in the second solution.

@@ -7,9 +7,9 @@ mod preview;
 use run::{Failure, Session};
 
 use crate::cloud::Cloud;
+use crate::frames::{self, Doubt, Found, Samples};
 use crate::magnetic::parameters::Parameters;
 use crate::magnetic::problem::Problem;
-use crate::output::{self, Doubt, Found, Samples};
 use crate::scene::{Geometry, Scene};
 use crate::solve::setup::numerics;
 use crate::surface::setup::enclosing;
@@ -63,7 +63,7 @@ fn fields<const D: usize, const K: usize>(
                 let mut all = still.clone();
                 all.join(fields);
                 doubts.append(&mut all.doubts);
-                output::write(scene, cloud, &samples, time, &all, session)
+                frames::write(scene, cloud, &samples, time, &all, session)
             },
         )?;
         tell(doubts, session);
@@ -74,7 +74,7 @@ fn fields<const D: usize, const K: usize>(
     far::tell::<D, K>(scene, cloud, &found, session)?;
     session.stopped()?;
     tell(std::mem::take(&mut found.doubts), session);
-    output::write(scene, cloud, &samples, 0.0, &found, session)
+    frames::write(scene, cloud, &samples, 0.0, &found, session)
 }
 
 /// The fields of charges and electrodes, if there are some.

@@ -8,8 +8,8 @@ use super::equations::Problem;
 use super::open::walls::OpenWalls;
 use super::traction::{dielectric, electrode};
 use crate::cloud::{Cloud, SurfacePoint};
+use crate::frames::{Column, Found};
 use crate::geometry::Geometry;
-use crate::output::{Column, Found};
 use crate::stencils::region::Region;
 use crate::stencils::setup::raise;
 

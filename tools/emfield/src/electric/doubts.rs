@@ -6,9 +6,9 @@ use super::enclosed::Closed;
 use super::equations::Problem;
 use super::traction::{EPS0, stress};
 use crate::cloud::{Cloud, SurfacePoint};
+use crate::frames::Doubt;
 use crate::geometry::Geometry;
 use crate::magnetic::source::minus;
-use crate::output::Doubt;
 use crate::surface::ways::{APART, HELP, Ways, size, told};
 
 /// Tractions added up over some surfaces.

@@ -6,7 +6,7 @@ use shapes::frame::Vector;
 use super::equations::Problem;
 use super::traction::EPS0;
 use crate::cloud::Cloud;
-use crate::output::Found;
+use crate::frames::Found;
 use crate::stencils::region::Region;
 use crate::stencils::sides::Form;
 use crate::surface::enclosing::Enclosing;

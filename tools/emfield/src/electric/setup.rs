@@ -10,7 +10,7 @@ use super::open::walls::AT;
 use super::solution::{self, Given};
 use crate::cloud::layout::vector;
 use crate::cloud::{Class, Cloud};
-use crate::output::Found;
+use crate::frames::Found;
 use crate::scene::faults::PLACE;
 use crate::scene::{Electrostatics, Interfaces, Scene};
 use crate::solve::Numerics;

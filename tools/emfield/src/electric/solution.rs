@@ -8,7 +8,7 @@ use super::enclosed::Surfaces;
 use super::equations::{Equations, Held, Problem, Smeared};
 use super::open::walls::{Applied, OpenWalls};
 use crate::cloud::Cloud;
-use crate::output::Found;
+use crate::frames::Found;
 use crate::solve::broken::unsolvable;
 use crate::solve::{Numerics, report, supports};
 use crate::stencils::region::Region;

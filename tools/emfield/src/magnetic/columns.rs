@@ -4,13 +4,13 @@ use shapes::frame::Vector;
 
 use super::charge::fields::Voltage;
 use super::problem::Problem;
+use crate::frames::{Column, Found};
 use crate::magnetic::driven::winding::Windings;
 use crate::magnetic::fields::{Fields, Media, Solution};
 use crate::magnetic::medium::law::traction;
 use crate::magnetic::source::{C, Source};
 use crate::magnetic::totals::Totals;
 use crate::magnetic::unknown::Unknown;
-use crate::output::{Column, Found};
 use crate::stencils::region::Face;
 use crate::surface::ways::push_force;
 

@@ -8,7 +8,7 @@ use super::source::C;
 use super::totals::Totals;
 use super::unknown::Unknown;
 use crate::cloud::{Class, SurfacePoint};
-use crate::output::Doubt;
+use crate::frames::Doubt;
 use crate::surface::ways::{APART, HELP, Ways, told};
 
 /// Forces of currents that come to less than this part of all stresses on their conductors are not compared alone.

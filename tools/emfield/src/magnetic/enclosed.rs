@@ -6,7 +6,7 @@ use super::fields::{Fields, Solution, cross_mean};
 use super::problem::Problem;
 use super::source::{C, Source, minus};
 use super::totals::Totals;
-use crate::output::Found;
+use crate::frames::Found;
 use crate::surface::fits::Enclosed;
 use crate::surface::ways::push;
 

@@ -13,7 +13,7 @@ use super::open::multipoles::Multipoles;
 use super::problem::Problem;
 use super::source::C;
 use super::waves::rows::WaveRows;
-use crate::output::Found;
+use crate::frames::Found;
 use crate::solve::broken::unsolvable;
 use crate::solve::report;
 

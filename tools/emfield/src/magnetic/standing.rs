@@ -4,8 +4,8 @@ use run::{Failure, Session};
 
 use super::problem::Problem;
 use super::transient::{View, stage};
+use crate::frames::Found;
 use crate::march::scheme::State;
-use crate::output::Found;
 use crate::solve::report;
 
 impl<const D: usize> Problem<'_, D> {

@@ -11,8 +11,8 @@ use super::open::multipoles::Multipoles;
 use super::problem::Problem;
 use super::source::C;
 use super::stage::{Alone, Equations};
+use crate::frames::Found;
 use crate::march::scheme::{Stage, State, slope};
-use crate::output::Found;
 use crate::stencils::sides::{Form, Sides};
 use crate::stencils::unfit::no_stencil;
 

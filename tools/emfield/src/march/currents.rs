@@ -8,11 +8,11 @@ use super::growth::Growth;
 use super::scheme::{March, Settled, slope};
 use super::steps::Steps;
 use super::wave::Wave;
+use crate::frames::Found;
 use crate::magnetic::charge::fields::Lack;
 use crate::magnetic::problem::Problem;
 use crate::magnetic::saturation::bodies;
 use crate::magnetic::transient::{View, stage};
-use crate::output::Found;
 use crate::scene::Output;
 use crate::scene::currents::Transient;
 

@@ -7,10 +7,10 @@
 
 use shapes::frame::{Vector, length};
 
+use crate::frames::{Doubt, Found};
 use crate::geometry::Geometry;
 use crate::magnetic::source::C;
 use crate::magnetic::totals::spread;
-use crate::output::{Doubt, Found};
 
 /// Difference of two ways over the size of the force from which it is told.
 pub(crate) const APART: f64 = 0.05;
