@@ -4,6 +4,7 @@
 
 mod arguments;
 mod house;
+mod patches;
 mod skeleton;
 mod texts;
 
