@@ -51,6 +51,8 @@ pub(super) struct Film {
     caloric: Arc<Caloric>,
     /// Greatest k_gas of the table's rows \[W/(m K)\].
     most: f64,
+    /// T from which on k_gas is known \[K\].
+    lowest: f64,
 }
 
 impl Film {
@@ -93,7 +95,13 @@ impl Film {
             half: 0.5 * spacing,
             caloric,
             most,
+            lowest: range.0,
         })
+    }
+
+    /// T from which on k_gas is known \[K\]; below, that of there is held.
+    pub(super) fn lowest(&self) -> f64 {
+        self.lowest
     }
 
     /// Distance beyond which nothing is known of the gas \[m\].

@@ -93,6 +93,14 @@ impl Flux {
         Ok((sum / f64::from(PARTS * PARTS), whole))
     }
 
+    /// Temperature of the metal from which on it is known \[K\].
+    pub(super) fn lowest(&self) -> f64 {
+        match &self.law {
+            Law::Film(film) => film.lowest(),
+            _ => 0.0,
+        }
+    }
+
     /// Its table, if it follows one.
     pub(super) fn table(&self) -> Option<&Table> {
         match &self.law {

@@ -83,6 +83,8 @@ pub struct Arc {
     parts: f64,
     /// Whether something of a flux that varies in time may have been missed.
     missed: bool,
+    /// Temperature of the coldest metal that was heated \[K\].
+    coldest: f64,
     /// Whether grains may have taken the heat.
     covered: bool,
     /// Where each arc stands in this step, and how strongly it burns.
@@ -152,6 +154,7 @@ impl Arc {
             power: 0.0,
             parts: 1.0,
             missed: false,
+            coldest: f64::MAX,
             covered: false,
             stands: Vec::new(),
             heated: Chunks::default(),
@@ -316,6 +319,7 @@ impl Stage for Arc {
             let one = one?;
             self.parts = self.parts.max(one.parts);
             self.missed |= !one.found;
+            self.coldest = self.coldest.min(one.temperature);
             let a = one.a as usize;
             (enthalpies[a], temperatures[a]) = (one.enthalpy, one.temperature);
             received::add(told, a, one.put.iter().sum());
@@ -356,7 +360,9 @@ impl Stage for Arc {
         let beside = arcs.filter_map(|(number, arc)| arc.reached.warning(number));
         let beside = beside.filter(|_| !self.covered && nothing.is_none());
         let beside: Vec<String> = beside.collect();
-        missed.into_iter().chain(nothing).chain(beside).collect()
+        let cold = self.cold();
+        let told = missed.into_iter().chain(nothing).chain(cold);
+        told.chain(beside).collect()
     }
 
     fn save(&self) -> Vec<f64> {
@@ -364,11 +370,13 @@ impl Stage for Arc {
         let reached = self.arcs.iter().map(|arc| arc.reached);
         let reached = reached.flat_map(|reached| [reached.offered, reached.put]);
         let missed = f64::from(u8::from(self.missed));
-        put.chain(reached).chain([missed]).collect()
+        put.chain(reached).chain([self.coldest, missed]).collect()
     }
 
     fn restore(&mut self, saved: &[f64]) {
-        self.missed = saved.last().is_some_and(|missed| *missed > 0.0);
+        if let [.., coldest, missed] = saved {
+            (self.coldest, self.missed) = (*coldest, *missed > 0.0);
+        }
         let mut pairs = saved.chunks_exact(2);
         for ((_, sum), parts) in self.energies.iter_mut().zip(&mut pairs) {
             *sum = Sum::restored(parts);

@@ -37,7 +37,22 @@ impl Reached {
     }
 }
 
+/// How far below its first row a table may be asked \[K\]: as far as a start temperature is rounded.
+const BELOW: f64 = 1.0;
+
 impl Arc {
+    /// What to tell where metal was colder than the gas film is known for.
+    pub(super) fn cold(&self) -> Option<String> {
+        let fluxes = self.arcs.iter().flat_map(|arc| &arc.fluxes);
+        let lowest = fluxes.map(Flux::lowest).fold(0.0, f64::max);
+        (self.coldest < lowest - BELOW).then(|| {
+            format!(
+                "the conductivity of the gas is known from {lowest} K on, and metal of {:.0} K was heated: its first row was held",
+                self.coldest
+            )
+        })
+    }
+
     /// Compares what the tables of each arc hold with what of it falls on the metal now.
     pub(super) fn compare(&mut self, skin: &Skin<'_>, exposed: &[u32]) -> Result<(), StageError> {
         let mut put = vec![0.0; self.arcs.len()];

@@ -332,3 +332,20 @@ fn an_arc_whose_tables_fall_beside_the_plate_is_told() {
         "{said:?}"
     );
 }
+
+#[test]
+fn metal_colder_than_the_gas_is_known_for_is_told() {
+    let told = |first: f64| {
+        let gas =
+            json!({"thermal_conductivity_w_m_k": {"t_k": [first, 20000], "value": [0.1, 2.0]}});
+        let mut arc = made(json!({"parts": ["radiation"], "gas": gas})).unwrap();
+        arc.advance(&mut plate(300.0), 1e-6).unwrap();
+        arc.warnings()
+    };
+    assert!(told(300.0).is_empty(), "{:?}", told(300.0));
+    let said = told(5000.0);
+    assert!(
+        said.len() == 1 && said[0].contains("from 5000 K on"),
+        "{said:?}"
+    );
+}
