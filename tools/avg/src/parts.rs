@@ -126,6 +126,10 @@ impl Estimate {
         }
         let (parts, frames) = (f64::from(all.closed), f64::from(all.count));
         let about_mean = all.squares + all.weight * (all.centre - all.mean).powi(2);
+        if about_mean < 0.0 {
+            // Of values that differ by rounding alone.
+            return 0.0;
+        }
         (parts / (parts - 1.0) * about_mean).sqrt() / frames
     }
 

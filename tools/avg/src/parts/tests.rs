@@ -115,3 +115,19 @@ fn one_frame_a_part_is_the_error_of_independent_values() {
     assert_eq!(estimate(&Parts::by_spans(1), &[3.0]).parts(), 1);
     assert!(estimate(&Parts::by_spans(1), &[3.0]).half_interval() == 0.0);
 }
+
+#[test]
+fn values_that_are_equal_but_for_rounding_have_no_error_and_no_square_below_nothing() {
+    let mut chance = Chance(7);
+    for _ in 0..10_000 {
+        let value = chance.even();
+        let of: Vec<i64> = (0..12).map(|n| n * n / 9).collect();
+        let values: Vec<f64> = of
+            .iter()
+            .map(|_| value * (1.0 + (chance.even() - 0.5) * 4.0 * f64::EPSILON))
+            .collect();
+        let found = estimate(&Parts::by_droplets(&of), &values);
+        let error = found.standard_error();
+        assert!((0.0..1e-8).contains(&error), "{error} {values:?}");
+    }
+}
