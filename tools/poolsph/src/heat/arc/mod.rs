@@ -305,7 +305,7 @@ impl Stage for Arc {
         let followed = stands(&self.arcs, state.source, times, spacing, &mut self.stands);
         self.missed |= !followed;
         if state.step.is_multiple_of(reached::EVERY) {
-            self.compare(&skin, &state.exposed)?;
+            self.compare(&skin, state)?;
         }
         heated.fill(&state.exposed, |a| {
             let spot = self.lit(&skin, a)?;
