@@ -113,6 +113,7 @@ fn ripples_fall_and_linear_flow_stays() {
     let near = &mut state.near;
     let still = vec![[0.0; 3]; near.len()];
     let mut solver = DivergenceFree::new(METAL);
+    solver.look(near);
     solver.sum(near, &still);
     let damped = |near: &Near| {
         let mut out = near.velocity.clone();

@@ -140,7 +140,8 @@ mod tests {
         let mut rows = vec![Sums::default(); near.len()];
         let filled = Filled::of(METAL);
         near.each_row(&mut rows, |a, row, out| {
-            *out = Sums::of(&near, &u, a, row, filled)
+            *out = Sums::of(&near, a, row, filled);
+            out.flow(&near, &u, a, row);
         });
         (near, rows, u)
     }

@@ -185,13 +185,13 @@ impl DivergenceFree {
         }
         self.weight
             .lift(near, &self.islands, predicted, borne, step);
-        self.sum(near, predicted);
+        self.look(near);
         if !near.tension.is_empty() {
             let part = step.dt / capillary::limit(near, step.metal);
             self.ripples.damp(near, &self.rows, part, predicted);
             self.cohesion.pull(near, self.filled, step.dt, predicted);
-            self.sum(near, predicted);
         }
+        self.sum(near, predicted);
         let gas = self.weight.settle(near, &self.islands, &self.rows);
         if !near.tension.is_empty() {
             self.pull.press(near, &self.rows);
@@ -235,9 +235,25 @@ impl DivergenceFree {
         self.pull.bounded()
     }
 
-    /// What the operators know of each row.
-    fn sum(&mut self, near: &Near, predicted: &[[f64; 3]]) {
+    /// What the places tell the operators of each row.
+    fn look(&mut self, near: &Near) {
         let filled = self.filled;
+        self.rows.resize(near.len(), Sums::default());
+        near.each_row(
+            &mut self.rows,
+            #[inline(always)]
+            |a, row, out| {
+                *out = match near.role[a] {
+                    Role::Liquid => Sums::of(near, a, row, filled),
+                    _ => Sums::default(),
+                };
+            },
+        );
+        self.close();
+    }
+
+    /// What the predicted velocities tell them.
+    fn sum(&mut self, near: &Near, predicted: &[[f64; 3]]) {
         self.moved.clear();
         self.moved.extend_from_slice(predicted);
         near.complete(&mut self.moved, |u, _, turn| turn.vector(u));
@@ -247,18 +263,15 @@ impl DivergenceFree {
             .extend(changes.map(|(to, from)| minus(*to, *from)));
         near.complete(&mut self.change, |u, _, turn| turn.vector(u));
         let moved = &self.moved;
-        self.rows.resize(near.len(), Sums::default());
         near.each_row(
             &mut self.rows,
             #[inline(always)]
-            |a, row, out| {
-                *out = match near.role[a] {
-                    Role::Liquid => Sums::of(near, moved, a, row, filled),
-                    _ => Sums::default(),
-                };
+            |a, row, sums| {
+                if near.role[a] == Role::Liquid {
+                    sums.flow(near, moved, a, row);
+                }
             },
         );
-        self.close();
     }
 
     /// A surface of less than a few particles is none: it would bear all that the volume of a closed box is in error.

@@ -57,6 +57,8 @@ pub(super) struct Sums {
     pub(super) inverse: [f64; 6],
     /// B of the present neighbours alone \[m3\].
     pub(super) present: [f64; 6],
+    /// B of div u \[m3\].
+    shared: [f64; 6],
     /// Mean moment along an axis, what is missing included \[1/m3\].
     pub(super) moment: f64,
     /// div u \[1/s\].
@@ -101,38 +103,33 @@ fn multiplied([a, b, c, d, e, f]: [f64; 6], [x, y, z]: [[f64; 3]; 3]) -> [[f64; 
 }
 
 impl Sums {
-    /// Those of particle `a` with the velocities `u`.
+    /// What the places around particle `a` tell.
     #[inline(always)]
-    pub(super) fn of(near: &Near, u: &[[f64; 3]], a: usize, row: Row<'_>, filled: Filled) -> Self {
-        let (mut all, mut liquid) = (0.0, 0.0);
-        let (mut moments, mut change) = ([0.0; 6], [[0.0; 3]; 3]);
+    pub(super) fn of(near: &Near, a: usize, row: Row<'_>, filled: Filled) -> Self {
+        let (mut all, mut liquid, mut moments) = (0.0, 0.0, [0.0; 6]);
         for (b, slope) in row.slopes() {
             let x = minus(near.position[a], near.position[b]);
             all -= slope;
-            let step = if near.role[b].flows() {
+            if near.role[b].flows() {
                 liquid -= slope;
-                minus(u[b], u[a])
-            } else {
-                u[a].map(|u| -2.0 * u)
-            };
+            }
             let [p, q, r] = x.map(|x| slope * x);
-            change[0] = plus(change[0], p, step);
-            change[1] = plus(change[1], q, step);
-            change[2] = plus(change[2], r, step);
             let squares = [p * x[0], q * x[1], r * x[2], p * x[1], p * x[2], q * x[2]];
             moments = std::array::from_fn(|i| moments[i] - squares[i]);
         }
         let (fill, tense) = (all / filled.weight, !near.tension.is_empty());
         let part = within(1.0 - fill, LACKS);
         let missing = part * (filled.weight - all).max(0.0);
+        let present = filled.inverse(moments, within(fill, TRUST));
         let mut sums = Self {
             liquid,
             missing,
             divergence: 0.0,
             slope: [[0.0; 3]; 3],
             layer: filled.spacing,
-            inverse: [0.0; 6],
-            present: [0.0; 6],
+            inverse: present,
+            present,
+            shared: present,
             open: [0.0; 3],
             sure: 0.0,
             moment: if tense {
@@ -141,9 +138,6 @@ impl Sums {
                 (moments[0] + moments[1] + moments[2] + missing * filled.beside) / 3.0
             },
         };
-        let present = filled.inverse(moments, within(fill, TRUST));
-        (sums.present, sums.inverse) = (present, present);
-        let mut shared = present;
         if missing > 0.0 {
             let inwards = near.gradient[a];
             sums.open = inwards.map(|x| part * x);
@@ -156,11 +150,30 @@ impl Sums {
             }
             beyond(&mut moments, sums.open, missing, sums.layer);
             sums.inverse = filled.inverse(moments, within(fill, TRUST));
-            shared = std::array::from_fn(|i| deep * present[i] + (1.0 - deep) * sums.inverse[i]);
+            sums.shared =
+                std::array::from_fn(|i| deep * present[i] + (1.0 - deep) * sums.inverse[i]);
         }
-        sums.slope = multiplied(shared, change);
-        sums.divergence = (0..3).map(|i| sums.slope[i][i]).sum();
         sums
+    }
+
+    /// Adds what the velocities `u` tell.
+    #[inline(always)]
+    pub(super) fn flow(&mut self, near: &Near, u: &[[f64; 3]], a: usize, row: Row<'_>) {
+        let mut change = [[0.0; 3]; 3];
+        for (b, slope) in row.slopes() {
+            let x = minus(near.position[a], near.position[b]);
+            let step = if near.role[b].flows() {
+                minus(u[b], u[a])
+            } else {
+                u[a].map(|u| -2.0 * u)
+            };
+            let [p, q, r] = x.map(|x| slope * x);
+            change[0] = plus(change[0], p, step);
+            change[1] = plus(change[1], q, step);
+            change[2] = plus(change[2], r, step);
+        }
+        self.slope = multiplied(self.shared, change);
+        self.divergence = (0..3).map(|i| self.slope[i][i]).sum();
     }
 }
 

@@ -45,6 +45,7 @@ fn slopes_are_exact_in_a_cloud_in_disorder() {
         .collect();
     let mut solver = DivergenceFree::new(METAL);
     solver.islands.find(near);
+    solver.look(near);
     solver.sum(near, &u);
     let asked = [3e5, -2e5, 1e5];
     solver.total = near.position.iter().map(|x| 4e3 + dot(asked, *x)).collect();
@@ -76,6 +77,7 @@ fn pressure_below_a_plane_surface_is_exact_on_the_lattice() {
     let still = vec![[0.0; 3]; near.len()];
     let mut solver = DivergenceFree::new(METAL);
     solver.islands.find(near);
+    solver.look(near);
     solver.sum(near, &still);
     let top = 10.0 * METAL.spacing;
     solver.total = near.position.iter().map(|x| 8e4 * (top - x[2])).collect();
@@ -261,6 +263,7 @@ fn a_box_without_a_surface_has_none_however_its_particles_lie() {
         near,
         &Viscosity::new(crate::motion::Law::Uniform(0.004), METAL),
     );
+    solver.look(near);
     solver.sum(near, &near.velocity.clone());
     let (own, filled) = (near.kernel.value(0.0), solver.filled.number);
     let lack = |a: usize| 1.0 - (near.number[a] - own) / (filled - own);
@@ -298,6 +301,7 @@ fn a_plane_surface_is_one_and_its_particles_are_shifted_along_it() {
         near,
         &Viscosity::new(crate::motion::Law::Uniform(0.004), METAL),
     );
+    solver.look(near);
     solver.sum(near, &near.velocity.clone());
     assert!(solver.rows[a].missing > 0.2 * solver.filled.weight);
     let (before, velocity) = (near.position[a], near.velocity[a]);
