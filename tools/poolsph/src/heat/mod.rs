@@ -17,6 +17,7 @@ mod parameters;
 mod phase;
 mod radial;
 pub mod received;
+mod shade;
 mod skin;
 mod torches;
 mod vapour;

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! The power is exact at every instant, whatever the particles. The sum is the share of the distribution that lies in the metal.
-//! A surface takes heat by its area across the torch; from above that is what is seen of it. A step in which a torch would move by
+//! A surface takes heat by its area across the torch, as far as the torch sees it ([`shade`](super::shade)); from above that is what
+//! is seen of it. A step in which a torch would move by
 //! more than a part of its least half axis is divided.
 
 use std::sync::Arc as Shared;
@@ -19,6 +20,7 @@ use super::caloric::Caloric;
 use super::chunks::Chunks;
 use super::ledger::Sum;
 use super::received::{self, FROM_TORCHES};
+use super::shade::Shade;
 use super::skin::Skin;
 use crate::patch;
 use crate::stage::{Figure, Stage, StageError};
@@ -111,13 +113,21 @@ impl Torches {
                 takes.then(|| (a as u32, torch.density(stand, x, d) * volume))
             });
         } else {
-            let above = stand.axes[2][2] < DOWN;
+            let shade = (stand.axes[2][2] >= DOWN).then(|| {
+                let places = state.exposed.iter().map(|a| skin.position[*a as usize]);
+                let under = places.filter(|x| torch.reaches(stand, *x, d));
+                Shade::of(under, stand, d)
+            });
             self.weighed.fill(&state.exposed, |a| {
                 let x = skin.position[a];
-                let area = match above {
-                    true => surface.seen[a],
-                    false => torch.faced(stand, surface.normal[a], surface.area[a]),
-                };
+                let area = shade.as_ref().map_or(surface.seen[a], |shade| {
+                    let faced = torch.faced(stand, surface.normal[a], surface.area[a]);
+                    if faced > 0.0 {
+                        faced * shade.seen(x, surface.normal[a])
+                    } else {
+                        0.0
+                    }
+                });
                 let takes = area > 0.0 && skin.takes(a) && torch.reaches(stand, x, d);
                 takes.then(|| (a as u32, torch.density(stand, x, d) * area))
             });

@@ -18,6 +18,11 @@ fn torch(shape: &str, more: &str) -> Torch {
 
 /// A block of 20 x 20 x 10 mm with its top at z = 10 mm, at rest.
 fn block(spacing: f64, caloric: &Caloric) -> State {
+    plates(spacing, caloric, &[([0.0; 3], [0.02, 0.02, 0.01])])
+}
+
+/// Plates at rest, each of a corner and its edges.
+fn plates(spacing: f64, caloric: &Caloric, plates: &[([f64; 3], [f64; 3])]) -> State {
     let metal = Matter {
         density: 1000.0,
         spacing,
@@ -27,18 +32,20 @@ fn block(spacing: f64, caloric: &Caloric) -> State {
     state.metal.declare(&TEMPERATURE);
     state.metal.declare(&ENTHALPY);
     patch::declare(&mut state.metal);
-    let n = [0.02, 0.02, 0.01].map(|edge: f64| (edge / spacing).round() as usize);
-    for i in 0..n[0] * n[1] * n[2] {
-        let index = [i % n[0], i / n[0] % n[1], i / (n[0] * n[1])];
-        state.push(Particle {
-            position: index.map(|k| (k as f64 + 0.5) * spacing),
-            velocity: [0.0; 3],
-            phase: phase::SOLID,
-            droplet: false,
-            wall: false,
-            temperature: 300.0,
-            enthalpy: caloric.enthalpy(300.0),
-        });
+    for (corner, edges) in plates {
+        let n = edges.map(|edge| (edge / spacing).round() as usize);
+        for i in 0..n[0] * n[1] * n[2] {
+            let index = [i % n[0], i / n[0] % n[1], i / (n[0] * n[1])];
+            state.push(Particle {
+                position: [0, 1, 2].map(|k| corner[k] + (index[k] as f64 + 0.5) * spacing),
+                velocity: [0.0; 3],
+                phase: phase::SOLID,
+                droplet: false,
+                wall: false,
+                temperature: 300.0,
+                enthalpy: caloric.enthalpy(300.0),
+            });
+        }
     }
     state.gather();
     Surface::new(metal).advance(&mut state, 1e-3).unwrap();
@@ -98,6 +105,38 @@ fn what_lies_outside_is_lost_where_it_is_asked_for_and_told() {
     let (gained, stage) = heated(aside, 0.001, &[0.0]);
     assert!((gained / 6.0 - 1.0).abs() < 1e-9, "{gained}");
     assert!(stage.warnings()[0].contains("whole power"));
+}
+
+/// What a torch that leans by 45 degrees gives to plates, by the height up to which they lie \[J\].
+fn leaning(bodies: &[([f64; 3], [f64; 3])], below: f64) -> (f64, f64, Torches) {
+    let leans = torch(DISC, r#", "points_to": [1, 0, -1]"#);
+    let caloric = Shared::new(plain(30.0, 500.0, None));
+    let mut state = plates(0.001, &caloric, bodies);
+    let mut stage = Torches::new(&[leans], caloric.clone(), state.metal.matter).unwrap();
+    stage.advance(&mut state, 0.01).unwrap();
+    let gained = state.metal.column(&ENTHALPY).iter();
+    let gained = gained.map(|h| (h - caloric.enthalpy(300.0)) * state.metal.matter.mass());
+    let places = state.metal.column(&POSITION);
+    let (mut low, mut all) = (0.0, 0.0);
+    for (x, gained) in places.iter().zip(gained) {
+        all += gained;
+        low += if x[2] < below { gained } else { 0.0 };
+    }
+    (low, all, stage)
+}
+
+#[test]
+fn a_torch_that_leans_sees_all_of_a_plate_and_nothing_behind_one() {
+    let plate = ([0.0; 3], [0.02, 0.02, 0.01]);
+    let (_, all, stage) = leaning(&[plate], 0.01);
+    assert!((all / 6.0 - 1.0).abs() < 1e-9, "{all}");
+    assert!(stage.warnings().is_empty(), "{:?}", stage.warnings());
+    // 4 mm above it, on the way of the torch, and so wide that it takes the whole.
+    let screen = ([-0.006, -0.01, 0.014], [0.024, 0.04, 0.002]);
+    let (low, all, stage) = leaning(&[plate, screen], 0.01);
+    assert!((all / 6.0 - 1.0).abs() < 1e-9, "{all}");
+    assert!(low < 1e-3 * all, "{low} of {all}");
+    assert!(stage.warnings().is_empty(), "{:?}", stage.warnings());
 }
 
 #[test]
