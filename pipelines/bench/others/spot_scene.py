@@ -34,8 +34,8 @@ class Spot:
         self.slope = sign * abs(scene["marangoni"]["slope_n_m_k"])
         self.expansion = scene["buoyancy"]["expansion_1_k"]
         self.reference = scene["buoyancy"]["reference_k"]
-        # A quarter of the plate takes a quarter of the power; R holds 95 % of the heat.
-        self.power = 4 * torch["power_w"]
+        # That of the whole plate, of which the scene has a quarter; R holds 95 % of the heat.
+        self.power = torch["power_w"]
         self.sigma = torch["shape"]["gaussian"]["radius_m"] / math.sqrt(6)
         self.lorentz = scene.get("lorentz", {}).get("force_n_m3", [0, 0])
         self.measure_radius = 1.25e-3

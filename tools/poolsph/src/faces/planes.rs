@@ -4,6 +4,9 @@ use run::property::{Arguments, Curve, OutOfRange};
 
 use crate::vector::{plus, squared};
 
+/// Cosine between an axis and the normal of a plane up to which the axis lies in it.
+const BESIDE: f64 = 1e-9;
+
 /// What lies beyond a face.
 #[derive(Debug, Clone)]
 pub(super) enum Side {
@@ -259,6 +262,21 @@ impl Faces {
     #[must_use]
     pub fn is_mirror(&self, axis: usize, side: usize) -> bool {
         matches!(self.sides[axis][side], Some(Side::Mirror | Side::Lid))
+    }
+
+    /// Part of a source around an axis `along` through the place `x` that is on this side of the mirrors through that axis, which lie
+    /// nearer to it than `near` \[m\].
+    #[must_use]
+    pub fn part_here(&self, x: [f64; 3], along: [f64; 3], near: f64) -> f64 {
+        let halved = |axis: &usize| {
+            let planes = self.planes(*axis);
+            (0..2).any(|side| {
+                let close = |plane: f64| (plane - x[*axis]).abs() < near;
+                self.is_mirror(*axis, side) && planes[side].is_some_and(close)
+            })
+        };
+        let beside = (0..3).filter(|axis| along[*axis].abs() < BESIDE);
+        0.5_f64.powi(beside.filter(halved).count() as i32)
     }
 
     /// True if the face of an `axis`, lower (0) or upper (1), holds the free surface flat.

@@ -474,3 +474,18 @@ fn between_walls_heat_flows_as_fourier_says() {
     let out = told(&conduction, "energy_out_walls_j") - told(&conduction, "energy_in_walls_j");
     assert!((out / (25.0 * 7.0 * 10.0) - 2.0).abs() < 0.35, "{out}");
 }
+
+#[test]
+fn a_source_upon_mirrors_is_here_in_part() {
+    let text =
+        r#"{"min_m": [0, 0, -1], "max_m": [1, 1, 0], "mirror": ["x-", "y-"], "lid": ["z+"]}"#;
+    let parameters: Parameters = serde_json::from_str(text).unwrap();
+    let faces = parameters.faces(0.1, true).unwrap();
+    let part = |x: [f64; 3], along| (4.0 * faces.part_here(x, along, 0.05)).round() as i32;
+    let down = [0.0, 0.0, -1.0];
+    assert_eq!(part([0.0; 3], down), 1);
+    assert_eq!(part([0.0, 0.5, 0.0], down), 2);
+    assert_eq!(part([0.5, 0.5, 0.0], down), 4);
+    // Leaning across the one plane, it lies in the other alone.
+    assert_eq!(part([0.0; 3], [0.6, 0.0, -0.8]), 2);
+}

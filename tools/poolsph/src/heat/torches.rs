@@ -4,7 +4,7 @@
 //! m dh_a/dt = eta P w_a / sum_b w_b,     w_a = q_a V_a in the volume, q_a dA_a on the surface
 //! ```
 //!
-//! The power is exact at every instant, whatever the particles. The sum is the share of the distribution that lies in the metal.
+//! The power is exact at every instant, whatever the particles. Of a torch upon a mirror half is here. The sum is the share of the distribution that lies in the metal.
 //! A surface takes heat by its area across the torch, as far as the torch sees it ([`shade`](super::shade)); from above that is what
 //! is seen of it. A step in which a torch would move by
 //! more than a part of its least half axis is divided.
@@ -28,6 +28,8 @@ use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 /// Part of the least half axis by which a torch moves between two looks.
 const PART: f64 = 0.25;
+/// Nearer to a mirror than this, in spacings, a torch is upon it.
+const UPON: f64 = 1e-3;
 /// Shares below this are none.
 const NONE: f64 = 1e-12;
 /// Share of a distribution below which it is told how little lies in the metal.
@@ -187,20 +189,25 @@ impl Stage for Torches {
                 let Some((energy, middle)) = torch.energy(from, from + step) else {
                     continue;
                 };
-                let share = self.weigh(state, &torch, &torch.stand(middle));
+                let stand = torch.stand(middle);
+                let here =
+                    (state.faces).part_here(stand.place, stand.axes[2], UPON * self.metal.spacing);
+                let energy = here * energy;
+                let inside = self.weigh(state, &torch, &stand);
+                let share = inside / here;
                 let each = match torch.beyond {
                     // Metal behind the torch takes part, but no more than the whole is given.
-                    Beyond::Lost => energy / share.max(1.0),
-                    Beyond::Inside if share > NONE => energy / share,
+                    Beyond::Lost => energy / here / share.max(1.0),
+                    Beyond::Inside if share > NONE => energy / inside,
                     Beyond::Inside => 0.0,
                 };
                 self.give(state, each)?;
                 let lit = &mut self.torches[number];
                 lit.least = lit.least.min(share);
                 lit.most = lit.most.max(share);
-                lit.put.add(each * share);
-                lit.lost.add(energy - each * share);
-                gain += each * share;
+                lit.put.add(each * inside);
+                lit.lost.add(energy - each * inside);
+                gain += each * inside;
             }
         }
         self.power = gain / dt;

@@ -3,7 +3,6 @@
 use super::super::flux::Flux;
 use super::super::skin::Skin;
 use super::Arc;
-use crate::faces::Faces;
 use crate::stage::StageError;
 use crate::state::State;
 
@@ -74,7 +73,7 @@ impl Arc {
         }
         for stand in &self.stands {
             let arc = &mut self.arcs[stand.arc];
-            let here = on_this_side(&state.faces, stand.axis, self.metal.spacing);
+            let here = (state.faces).part_here(stand.axis, [0.0, 0.0, 1.0], self.metal.spacing);
             arc.reached.offered += here * stand.level * arc.held;
         }
         for (arc, put) in self.arcs.iter_mut().zip(put) {
@@ -82,19 +81,6 @@ impl Arc {
         }
         Ok(())
     }
-}
-
-/// Part of an arc at a place that is on this side of mirrors through its axis.
-fn on_this_side(faces: &Faces, [x, y, _]: [f64; 3], spacing: f64) -> f64 {
-    let halved = |(axis, at): (usize, f64)| {
-        let planes = faces.planes(axis);
-        (0..2).any(|side| {
-            let near = |plane: f64| (plane - at).abs() < spacing;
-            faces.is_mirror(axis, side) && planes[side].is_some_and(near)
-        })
-    };
-    let parts = [(0, x), (1, y)].map(|of| if halved(of) { 0.5 } else { 1.0 });
-    parts.iter().product()
 }
 
 /// What the tables among `fluxes` hold \[W\]: 2 pi times the integral of |q| r, exact between rows.
@@ -127,15 +113,6 @@ mod tests {
         let flux = Flux::new("heat", Law::Table(table));
         let exact = std::f64::consts::PI * 15.0 * 15.0;
         assert!((held(&[flux]) / exact - 1.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn an_arc_upon_a_mirror_offers_half() {
-        let text = r#"{"min_m": [0, -1, -1], "max_m": [1, 1, 0], "mirror": ["x-"]}"#;
-        let parameters: crate::faces::Parameters = serde_json::from_str(text).unwrap();
-        let faces = parameters.faces(0.1, true).unwrap();
-        let part = |x: f64| on_this_side(&faces, [x, 0.0, 0.0], 0.05);
-        assert!((part(0.0) - 0.5).abs() < 1e-15 && (part(0.5) - 1.0).abs() < 1e-15);
     }
 
     #[test]

@@ -140,6 +140,31 @@ fn a_torch_that_leans_sees_all_of_a_plate_and_nothing_behind_one() {
 }
 
 #[test]
+fn half_a_plate_beside_its_mirror_takes_half_of_a_torch_upon_it() {
+    let faces = r#"{"min_m": [0.01, -1, -1], "max_m": [1, 1, 1], "mirror": ["x-"]}"#;
+    let faces: crate::faces::Parameters = serde_json::from_str(faces).unwrap();
+    let caloric = Shared::new(plain(30.0, 500.0, None));
+    for more in ["", r#", "beyond": "lost""#] {
+        let mut half = plates(0.001, &caloric, &[([0.01, 0.0, 0.0], [0.01, 0.02, 0.01])]);
+        half.faces = faces.faces(0.002, true).unwrap();
+        let torch = torch(DEEP, more);
+        let mut stage = Torches::new(&[torch], caloric.clone(), half.metal.matter).unwrap();
+        stage.advance(&mut half, 0.01).unwrap();
+        let [power, inside, put, lost] = [0, 1, 2, 3].map(|k| stage.figures()[k].value);
+        assert!((put + lost - 3.0).abs() < 1e-9, "{put} {lost}");
+        assert!(
+            (power * 0.01 - put).abs() < 1e-9 && inside > 0.99,
+            "{power} {inside}"
+        );
+        assert!(
+            lost.abs() < 0.03 && stage.warnings().is_empty(),
+            "{:?}",
+            stage.warnings()
+        );
+    }
+}
+
+#[test]
 fn metal_behind_a_torch_takes_no_more_than_the_whole_power() {
     let mut sunk = torch(DEEP, r#", "beyond": "lost""#);
     for corner in &mut sunk.path.points_m {
