@@ -31,6 +31,7 @@
 
 mod closing;
 mod cohesion;
+mod excess;
 mod filled;
 mod grad_div;
 mod islands;
@@ -57,6 +58,7 @@ use crate::vector::{minus, plus, squared};
 
 pub use self::closing::Closing;
 use self::cohesion::Cohesion;
+use self::excess::Excess;
 use self::filled::Filled;
 use self::grad_div::GradDiv;
 use self::islands::Islands;
@@ -69,16 +71,6 @@ use self::shift::Shift;
 use self::traction::Traction;
 use self::weight::Weight;
 
-/// Part of the excess of density that a step takes away.
-const RELAXED: f64 = 0.02;
-/// The same without a surface, while the velocity gradient turns or strains by one: there volume cannot drift. A strained lattice
-/// has an excess of some per cent however fine it is; what each step takes of it moves vortices by 3 % of their speed.
-const RELAXED_INSIDE: f64 = 0.3;
-/// The same where tension acts, in the time in which the shortest waves of the surface go half their length: a surface that
-/// swings draws its layers together and apart, and must not be stiff for it.
-const SLOW: f64 = 0.004;
-/// Most excess that counts.
-const MOST: f64 = 0.05;
 /// Least weight of what tells the pressure of a particle, in parts of the lattice's. One in the corner of three walls has 0.4 of liquid.
 const LEAST: f64 = 0.25;
 /// Particles of the least surface; a single one is no less.
@@ -290,7 +282,7 @@ impl DivergenceFree {
         let scale = 2.0 * step.dt * step.dt / (step.metal.density * filled.moment);
         self.poisson.resize(near.len(), scale);
         self.poisson.closed = rows.iter().all(|row| row.missing <= 0.0);
-        let (closed, most) = (self.poisson.closed, relaxed(near, step));
+        let excess = Excess::of(near, filled, step, self.poisson.closed);
         self.pressure.resize(near.len(), 0.0);
         let columns = self.poisson.equations.par_iter_mut();
         let columns = columns.zip(&mut self.pressure).zip(rows).enumerate();
@@ -301,13 +293,7 @@ impl DivergenceFree {
                     (*equation, *pressure) = ([0.0; 2], 0.0);
                     return;
                 }
-                let mut excess = near.number[a].max(near.kernel.value(0.0)) / filled.number - 1.0;
-                if row.missing > 0.0 {
-                    excess = excess.max(0.0);
-                }
-                let inside = most.min(RELAXED_INSIDE * step.dt * row.steep());
-                let relaxed = if closed { inside } else { most };
-                let gone = relaxed * excess.clamp(-MOST, MOST) - step.dt * row.divergence;
+                let gone = excess.goes(near, a, row) - step.dt * row.divergence;
                 // What walls enclose so that no liquid tells its pressure is as far from the surface as from the liquid.
                 let enclosed = (LEAST * filled.weight - row.liquid - 2.0 * row.missing).max(0.0);
                 let beyond = 2.0 * row.missing + enclosed;
@@ -397,14 +383,6 @@ impl DivergenceFree {
             + self.shift.bytes()
             + self.traction.bytes()
     }
-}
-
-/// Most of the excess of density that goes in a step.
-fn relaxed(near: &Near, step: Step) -> f64 {
-    if near.tension.is_empty() {
-        return RELAXED;
-    }
-    RELAXED.min(SLOW * step.dt / capillary::limit(near, step.metal))
 }
 
 #[cfg(test)]
