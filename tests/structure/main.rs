@@ -4,7 +4,6 @@
 
 mod arguments;
 mod house;
-mod patches;
 mod skeleton;
 mod texts;
 

@@ -210,6 +210,42 @@ fn own_values_go_before_the_sheet_and_patches_name_files_beside_themselves() {
 }
 
 #[test]
+fn members_that_a_patch_puts_in_place_of_a_name_join_those_of_the_sheet() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let whole = json!({"substances": steel(), "material": "steel"});
+    let read = |scene: &Value, patch: Value| read(folder.path(), scene, Some(&patch));
+    let (scene, _) = read(&whole, json!({"material": {"density_kg_m3": 7000}})).expect("good");
+    let material = scene.material.expect("a material");
+    assert_eq!(material.density_kg_m3, 7000.0);
+    assert!(matches!(material.conductivity_w_m_k, Property::Table(_)));
+    assert_eq!(material.melting.expect("melting").point_k, 1750.0);
+    // Of parts in it as well, but for what a patch takes away.
+    let part = json!({"substances": steel(), "material":
+        {"density_kg_m3": "steel", "conductivity_w_m_k": "steel", "melting": "steel"}});
+    let (scene, _) =
+        read(&part, json!({"material": {"melting": {"point_k": 1600}}})).expect("good");
+    let melting = scene
+        .material
+        .expect("a material")
+        .melting
+        .expect("melting");
+    assert_eq!(
+        (melting.point_k, melting.latent_heat_j_kg),
+        (1600.0, 250_000.0)
+    );
+    let none = json!({"material": {"melting": {"point_k": 1600, "latent_heat_j_kg": null}}});
+    let told = read(&part, none).expect_err("refused");
+    assert!(told.contains("latent_heat_j_kg"), "{told}");
+    // A property is replaced whole.
+    let own = json!({"material": {"conductivity_w_m_k": {"t_k": [300, 900], "value": [1, 2]}}});
+    let (_, merged) = read(&part, own).expect("good");
+    assert_eq!(
+        merged["material"]["conductivity_w_m_k"]["value"],
+        json!([1, 2])
+    );
+}
+
+#[test]
 fn what_is_wrong_is_told_where_it_stands() {
     let folder = tempfile::tempdir().expect("a folder");
     let wrong = |scene: Value, parts: &[&str]| {

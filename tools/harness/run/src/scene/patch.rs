@@ -20,6 +20,16 @@ pub struct Merged {
     written: usize,
     value: Value,
     origins: BTreeMap<String, (usize, Place)>,
+    texts: Texts,
+}
+
+/// What patches have done to texts, which may be names of substances.
+#[derive(Debug, Default)]
+struct Texts {
+    /// Texts in whose place patches have put members, by pointer.
+    under: BTreeMap<String, String>,
+    /// Pointers of members that patches have taken away.
+    gone: Vec<String>,
 }
 
 impl Merged {
@@ -34,6 +44,7 @@ impl Merged {
             origins,
             documents: vec![document],
             written: 1,
+            texts: Texts::default(),
         }
     }
 
@@ -83,12 +94,24 @@ impl Merged {
     pub(crate) fn apply(&mut self, patch: Document) {
         let mut merge = Merge {
             origins: &mut self.origins,
+            texts: &mut self.texts,
             patch: &patch,
             file: self.documents.len(),
         };
         merge.value(&mut self.value, &patch.value, "");
         self.documents.push(patch);
         self.written = self.documents.len();
+    }
+
+    /// Pointers of objects that patches have put where a text stood, with that text.
+    pub(crate) fn over_texts(&self) -> Vec<(String, String)> {
+        let under = self.texts.under.iter();
+        under.map(|(at, text)| (at.clone(), text.clone())).collect()
+    }
+
+    /// Whether a patch has taken away what stood at a pointer.
+    pub(crate) fn is_gone(&self, pointer: &str) -> bool {
+        self.texts.gone.iter().any(|at| at == pointer)
     }
 
     /// The path of a file that the value at a pointer names: beside the file that the value is in, or else from where the
@@ -209,6 +232,7 @@ pub fn located(faults: Vec<Fault>, merged: &Merged) -> Vec<Fault> {
 
 struct Merge<'a> {
     origins: &'a mut BTreeMap<String, (usize, Place)>,
+    texts: &'a mut Texts,
     patch: &'a Document,
     file: usize,
 }
@@ -222,6 +246,9 @@ impl Merge<'_> {
             return;
         };
         if !target.is_object() {
+            if let Value::String(text) = target {
+                self.texts.under.insert(pointer.to_owned(), text.clone());
+            }
             self.forget(pointer);
             self.set(pointer);
             *target = Value::Object(Map::new());
@@ -232,6 +259,7 @@ impl Merge<'_> {
             if change.is_null() {
                 self.forget(&child);
                 map.shift_remove(key);
+                self.texts.gone.push(child);
             } else {
                 if !map.contains_key(key) {
                     self.set(&child);

@@ -140,6 +140,18 @@ pub(super) fn fill(merged: &mut Merged, schema: &Value) -> Result<Vec<Fault>, Fa
             None => faults.push(Fault::at(&pointer, unknown(&text, &known))),
         }
     }
+    for (pointer, text) in merged.over_texts() {
+        let (around, key) = ends(&pointer);
+        let part = place(around, key).is_some_and(|place| is_part(&place));
+        let one = known.iter().find(|one| part && one.name == text);
+        let members = merged
+            .value()
+            .pointer(&pointer)
+            .is_some_and(Value::is_object);
+        if let Some(one) = one.filter(|_| members) {
+            complete(merged, schema, &pointer, one);
+        }
+    }
     let record = known.iter().map(|one| (one.name.clone(), told(one)));
     merged.set(SUBSTANCES, Value::Object(record.collect()));
     Ok(faults)
@@ -218,24 +230,32 @@ fn take(
             None => Some(Fault::at(pointer, lacking(place, one))),
         };
     }
+    merged.put(pointer, json!({}), None, pointer);
+    let any = complete(merged, schema, pointer, one);
+    (!any).then(|| Fault::at(pointer, lacking(place, one)))
+}
+
+/// Takes all that the object at a pointer of the scene can have, and has not, from a substance; gives whether it had any of it.
+/// What a patch has taken away stays away.
+fn complete(merged: &mut Merged, schema: &Value, pointer: &str, one: &Known) -> bool {
     let forms = wanted::forms(schema, pointer);
     let mut asked = wanted::keys(&forms);
     let around = ends(pointer).1.to_owned();
     asked.dedup_by_key(|(key, _)| *key);
-    merged.put(pointer, json!({}), None, pointer);
     let mut any = false;
     for (key, _) in asked {
         let inner = format!("{pointer}/{}", escaped(key));
         let Some(place) = self::place(&around, key) else {
             continue;
         };
-        if one.at(&place).is_some() && merged.value().pointer(&inner).is_none() {
+        let has = merged.value().pointer(&inner).is_some() || merged.is_gone(&inner);
+        if one.at(&place).is_some() && !has {
             any = true;
             merged.put(&inner, Value::Null, None, pointer);
             take(merged, schema, &inner, &place, one);
         }
     }
-    (!any).then(|| Fault::at(pointer, lacking(place, one)))
+    any
 }
 
 /// Whether a place is an object of keys of its own: the whole sheet, or a part of it.
