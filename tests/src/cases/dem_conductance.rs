@@ -11,7 +11,9 @@ use crate::particles::number;
 /// The case.
 pub(super) struct DemConductance;
 
-const METHODS: [&str; 4] = ["elastic", "overlap", "printed", "chain"];
+const METHODS: [&str; 5] = ["elastic", "overlap", "printed", "wetted", "chain"];
+/// Conductivity of slag over that of powder.
+const SLAG: f64 = 3.0;
 /// Grains of the chain.
 const CHAIN: usize = 8;
 
@@ -39,7 +41,7 @@ impl Case for DemConductance {
                 Target::error("energy", 1e-10).of(*method),
             ]
         };
-        let mut targets: Vec<Target> = METHODS[..3].iter().flat_map(pair).collect();
+        let mut targets: Vec<Target> = METHODS[..4].iter().flat_map(pair).collect();
         targets.push(Target::error("line", 1e-3).of("chain"));
         targets.push(Target::error("heat", 1e-3).of("chain"));
         targets
@@ -50,6 +52,9 @@ impl Case for DemConductance {
         let label = |kind: &str| format!("{method}-{kind}-level{level}");
         let contact = match method {
             "overlap" | "printed" => json!({"grains": {"heat": {"contact": method}}}),
+            // Slag from the start.
+            "wetted" => json!({"grains": {"heat": {"slag_wets": true, "melting":
+                {"point_k": 300, "latent_heat_j_kg": 0, "slag_conductivity_ratio": SLAG}}}}),
             _ => json!({}),
         };
         let scene = lab.run("poolsph", self.name(), &label("scene"), &contact)?;
@@ -96,9 +101,11 @@ impl Exact {
         );
         let distance = at("bodies/1/places_m/0/0")? - at("bodies/0/places_m/0/0")?;
         let by_overlap = (r * r - 0.25 * distance * distance).sqrt();
-        let (r_c, half) = match method {
+        let (r_c, factor) = match method {
             "overlap" => (by_overlap, 1.0),
             "printed" => (by_overlap, 0.5),
+            // As a cell of slag of the diameter.
+            "wetted" => (r, SLAG),
             _ => {
                 let push = at("contact/law/linear/stiffness_n_m")? * (2.0 * r - distance);
                 let nu = at("heat/contact/elastic/poisson_ratio")?;
@@ -116,7 +123,7 @@ impl Exact {
         Ok(Self {
             radius: r,
             distance,
-            conductance: half * 2.0 * k * r_c + gas,
+            conductance: factor * 2.0 * k * r_c + gas,
             capacity: mass(at("density_kg_m3")?, r) * at("heat/specific_heat_j_kg_k")?,
             ends: [at("bodies/0/temperature_k")?, at("bodies/1/temperature_k")?],
             body: run.scene["grains"]["bodies"][0].clone(),

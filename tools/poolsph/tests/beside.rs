@@ -181,6 +181,46 @@ fn heat_that_a_grain_loses_metal_gets() {
     assert!(metal[1].get("closure").unwrap().abs() < 1e-10);
 }
 
+/// Slag that lies on metal which hardly warms, wherever its particles stand, cools by H = 4 k_a k_b/(k_a + k_b) r.
+#[test]
+fn slag_that_wets_metal_cools_through_its_whole_width() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("slag.mcap");
+    // On one particle, and between four.
+    let over = 2.5e-4 - 3e-8;
+    let between = -2.5e-4 + (0.125e-6_f64).sqrt() - 3e-8;
+    for (place, contact) in [
+        ([2.25e-3, 2.25e-3, over], json!({})),
+        ([2.5e-3, 2.5e-3, between], json!({"contact": "overlap"})),
+    ] {
+        let mut scene = resting();
+        scene["bodies"][0]["temperature_k"] = json!(1000);
+        scene["heat"] = json!({"thermal_conductivity_w_m_k": 3e3, "specific_heat_j_kg_k": 1e5});
+        let grain = scene["grains"].as_object_mut().unwrap();
+        grain["bodies"] = json!([{"places_m": [place], "radius_m": 2.5e-4, "temperature_k": 2000}]);
+        grain.insert("heat".to_owned(), contact);
+        let heat = grain["heat"].as_object_mut().unwrap();
+        heat.insert("thermal_conductivity_w_m_k".to_owned(), json!(20));
+        heat.insert("specific_heat_j_kg_k".to_owned(), json!(1000));
+        heat.insert("gas_conductivity_w_m_k".to_owned(), json!(0.1));
+        heat.insert(
+            "melting".to_owned(),
+            json!({"point_k": 500, "latent_heat_j_kg": 0}),
+        );
+        heat.insert("slag_wets".to_owned(), json!(true));
+        scene["time"] = json!({"step_s": 1e-5, "end_s": 3e-3});
+        finished(&scene, &out, &[]);
+        let [first, last] = ends(&out, "/grains_balance");
+        let mass = 3230.0 * 4.0 / 3.0 * std::f64::consts::PI * 2.5e-4_f64.powi(3);
+        let lost =
+            (first.get("enthalpy_j").unwrap() - last.get("enthalpy_j").unwrap()) / (mass * 1e3);
+        let (k_a, k_b) = (60.0, 3e3);
+        let conductance = 4.0 * k_a * k_b / (k_a + k_b) * 2.5e-4;
+        let exact = 1e3 * (1.0 - (-conductance * 3e-3 / (mass * 1e3)).exp());
+        assert!((lost / exact - 1.0).abs() < 3e-3, "{lost} {exact}");
+    }
+}
+
 #[test]
 fn threads_do_not_show() {
     let folder = tempfile::tempdir().unwrap();

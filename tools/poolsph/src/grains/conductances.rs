@@ -81,7 +81,7 @@ impl Heat {
             let mean = 0.5 * (grains.temperature[a] + grains.temperature[b]);
             let gas = recent.gas(&grains, mean)?;
             let k = recent.conductivities(&grains, [a, b]);
-            Ok(grains.of_contact(&meeting, grains.radii[a], k, gas))
+            Ok(grains.of_contact(&meeting, [a, b], k, gas))
         };
         all.resize_with(lists.chunks.len(), Vec::new);
         let chunks = all.par_iter_mut().zip(&lists.chunks).enumerate();

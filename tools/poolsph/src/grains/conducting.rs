@@ -6,6 +6,7 @@ use contact::{Grain, Meeting, Normal, heat as conductance};
 use particles::{POSITION, Set};
 use run::property::{Curve, OutOfRange};
 
+use super::columns::{POWDER, SLAG, STATE};
 use super::law::Law;
 use super::{MASS, RADIUS};
 use crate::heat::Caloric;
@@ -29,6 +30,8 @@ pub(super) struct Conductor {
     pub(super) gas: Option<Curve>,
     /// k of slag over that of powder.
     pub(super) slag: f64,
+    /// Slag wets what it touches.
+    pub(super) wets: bool,
 }
 
 impl Conductor {
@@ -45,6 +48,7 @@ impl Conductor {
             masses: set.column(&MASS),
             enthalpies,
             temperature,
+            states: self.wets.then(|| set.column(&STATE)),
         }
     }
 }
@@ -59,6 +63,8 @@ pub(super) struct Conducting<'a> {
     enthalpies: &'a [f64],
     /// T \[K\].
     pub(super) temperature: &'a [f64],
+    /// What grains are, where slag wets what it touches.
+    states: Option<&'a [u8]>,
 }
 
 impl Conducting<'_> {
@@ -93,15 +99,34 @@ impl Conducting<'_> {
         }
     }
 
-    /// H of a contact \[W/K\] of a grain of `radius` \[m\].
+    /// Whether slag has spread in the contact of grains: one of both is molten, or both have been.
+    pub(super) fn joined(&self, a: usize, b: usize) -> bool {
+        self.states.is_some_and(|states| {
+            let pair = [states[a], states[b]];
+            pair.contains(&SLAG) || !pair.contains(&POWDER)
+        })
+    }
+
+    /// Whether slag has spread on the metal that it touches.
+    pub(super) fn spread(&self, a: usize) -> bool {
+        self.states.is_some_and(|states| states[a] != POWDER)
+    }
+
+    /// H of the contact \[W/K\] of the grains a and b.
+    ///
+    /// Where slag has spread the contact is as wide as the grain, and a row of equal grains conducts as cells of their diameter do:
+    /// `4 k k/(k + k) r = k d^2/d`.
     pub(super) fn of_contact(
         &self,
         meeting: &Meeting,
-        radius: f64,
+        [a, b]: [usize; 2],
         k: [f64; 2],
         gas: Option<f64>,
     ) -> f64 {
-        let wide = 2.0 * meeting.radius;
+        let (radius, wide) = (self.radii[a], 2.0 * meeting.radius);
+        if self.joined(a, b) {
+            return conductance::constriction(k, wide);
+        }
         let arm = meeting.arms[0];
         let by_overlap = (radius * radius - arm * arm).max(0.0).sqrt();
         let (r_c, solid) = match self.conductor.radius {

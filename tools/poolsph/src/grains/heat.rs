@@ -98,14 +98,8 @@ impl Heat {
         };
         let caloric = heat.caloric().map_err(|fault| fault.within("/heat"))?;
         let boiling = heat.melting.and_then(|melting| melting.boiling_k);
-        if let (Some(t), Some(melting)) = (boiling, heat.melting)
-            && t <= melting.point_k
-        {
-            let what = format!(
-                "{t} K is not above the melting point, {} K",
-                melting.point_k
-            );
-            return Err(Fault::at("/heat/melting/boiling_k", what));
+        if let Some(fault) = heat.unmolten() {
+            return Err(fault.within("/heat"));
         }
         Ok(Self {
             boiling: boiling.map(|t| caloric.enthalpy(t)),
@@ -121,6 +115,7 @@ impl Heat {
                 },
                 gas,
                 slag: heat.melting.map_or(1.0, |m| m.slag_conductivity_ratio),
+                wets: heat.slag_wets,
             },
             caloric,
             held: scene

@@ -7,7 +7,7 @@
 //!
 //! Metal is flat to a grain, however its particles lie: one contact, whose push is that of all of them together, with the radius
 //! of an elastic sphere on a flat face (Hertz 1881). The face stands where the plane of symmetry of two grains would: the gas
-//! has half the way of eq. 5.36 and conducts twice as well. Four particles under a grain, each with a
+//! has half the way of eq. 5.36 and conducts twice as well. Slag that wets the metal touches it through the whole grain, without gas. Four particles under a grain, each with a
 //! contact of its own, would let through four times the gas. With contacts as wide as the overlap (5.34) each is counted by itself and as
 //! between two grains, as the source does.
 //!
@@ -125,6 +125,8 @@ impl Exchange {
         let temperatures = state.metal.column(&TEMPERATURE);
         let own = grains.conductivity(a);
         let first = self.links.len();
+        let spread = grains.spread(a);
+        let shared = spread || matches!(grains.radius(), Radius::Force(_));
         let (mut all, mut sum) = ([0.0; 3], 0.0);
         for (body, meeting) in touching {
             let push = grains.push(&meeting);
@@ -134,11 +136,11 @@ impl Exchange {
             let pair = [own, self.caloric.conductivity(metal)];
             let gas = grains.gas(0.5 * (grains.temperature[a] + metal))?;
             let conductance = match grains.radius() {
-                // For now the push alone: the width follows from that of all together.
-                Radius::Force(_) => push,
-                Radius::Overlap { printed } => {
+                Radius::Overlap { printed } if !shared => {
                     self.by_overlap(&grain, &meeting, pair, gas, printed)
                 }
+                // For now the push alone: the width follows from that of all together.
+                _ => push,
             };
             self.links.push(Link {
                 row: a as u32,
@@ -147,8 +149,12 @@ impl Exchange {
                 rate: 0.0,
             });
         }
-        if matches!(grains.radius(), Radius::Force(_)) && sum > 0.0 {
-            let r_c = conductance::radius_by_force(length(all), grain.radius, self.modulus);
+        if shared && sum > 0.0 {
+            let r_c = if spread {
+                grain.radius
+            } else {
+                conductance::radius_by_force(length(all), grain.radius, self.modulus)
+            };
             for link in &mut self.links[first..] {
                 let id = bodies[link.body as usize].id as usize;
                 let metal = temperatures[id];

@@ -222,6 +222,10 @@ pub struct GrainHeat {
     pub gas_conductivity_w_m_k: Option<Property>,
     /// Melting to slag; absent: grains never melt.
     pub melting: Option<GrainMelting>,
+    /// Slag wets what it touches: a contact conducts through the whole grain where one of both is molten, both have been, or the other
+    /// is metal. Absent: it touches as a grain of powder does.
+    #[serde(default)]
+    pub slag_wets: bool,
 }
 
 /// How wide a contact conducts.
@@ -281,6 +285,22 @@ fn three() -> f64 {
 }
 
 impl GrainHeat {
+    /// What of slag cannot be.
+    #[must_use]
+    pub fn unmolten(&self) -> Option<Fault> {
+        let Some(melting) = self.melting else {
+            let what =
+                "grains without 'melting' never are slag: leave it out, or say when they melt";
+            return self.slag_wets.then(|| Fault::at("/slag_wets", what));
+        };
+        let boiling = melting.boiling_k.filter(|t| *t <= melting.point_k)?;
+        let what = format!(
+            "{boiling} K is not above the melting point, {} K",
+            melting.point_k
+        );
+        Some(Fault::at("/melting/boiling_k", what))
+    }
+
     /// Enthalpy and conductivity of the grains.
     ///
     /// # Errors
