@@ -64,6 +64,8 @@ pub struct Curvature {
     /// What stands beside faces of other contact angles than right ones, and the sums of W then; none without such faces.
     askew: Option<Askew>,
     number: Vec<f64>,
+    /// Parts of the sums of W and grad W that dry metal has; empty without any.
+    dry: Vec<[f64; 4]>,
     /// Members that tell of the surface.
     members: Vec<u32>,
     places: Vec<[f64; 3]>,
@@ -90,6 +92,7 @@ impl Curvature {
             turned: Vec::new(),
             askew: None,
             number: Vec::new(),
+            dry: Vec::new(),
             members: Vec::new(),
             places: Vec::new(),
             samples: Vec::new(),
@@ -152,8 +155,9 @@ impl Curvature {
     /// Takes what the liquid does not wet out of the sums of W and grad W: to its surface that is no metal.
     fn bare(&mut self, near: &Near) {
         let kernel = &near.kernel;
-        let mut sums: Vec<[f64; 4]> = vec![[0.0; 4]; near.len()];
-        near.each_row(&mut sums, |a, row, sums| {
+        self.dry.resize(near.len(), [0.0; 4]);
+        near.each_row(&mut self.dry, |a, row, sums| {
+            *sums = [0.0; 4];
             for b in row.index.iter().map(|b| *b as usize) {
                 let dry = near.dry[near.images().original(b)];
                 if dry > 0.0 {
@@ -165,10 +169,10 @@ impl Curvature {
                 }
             }
         });
-        let rows = self.number.iter_mut().zip(&mut self.gradient).zip(sums);
-        for ((number, gradient), [value, x, y, z]) in rows {
+        let rows = self.number.iter_mut().zip(&mut self.gradient);
+        for ((number, gradient), [value, x, y, z]) in rows.zip(&self.dry) {
             *number -= value;
-            *gradient = minus(*gradient, [x, y, z]);
+            *gradient = minus(*gradient, [*x, *y, *z]);
         }
     }
 
@@ -316,6 +320,7 @@ impl Curvature {
             + (size_of::<Sample>() + 24 + 4 + 32) * self.samples.capacity()
             + self.lists.bytes()
             + 8 * self.number.capacity()
+            + 32 * self.dry.capacity()
             + self.askew.as_ref().map_or(0, Askew::bytes)
     }
 }
