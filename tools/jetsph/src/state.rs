@@ -29,6 +29,8 @@ pub struct State {
     pub ids: Ids,
     /// How often particles have come or left.
     pub exchanges: u64,
+    /// What plain walls bear of pairs of water and solids \[N\], until the water counts it.
+    pub on_walls: Vec<[f64; 3]>,
 }
 
 impl State {
@@ -42,6 +44,7 @@ impl State {
             sets: Vec::new(),
             ids: Ids::default(),
             exchanges: 0,
+            on_walls: Vec::new(),
         }
     }
 

@@ -140,7 +140,16 @@ fn soundless(liquid: Liquid, kind: (usize, KernelScene)) -> Box<dyn Stage> {
 }
 
 /// The stage of a solid and the water, which was put into the state last.
-pub(super) fn meet(of: &WaterScene, law: Tait, solid: &Made, state: &mut State) -> Box<dyn Stage> {
+pub(super) fn meet(
+    (scene, of): (&Scene, &WaterScene),
+    law: Tait,
+    solid: &Made,
+    state: &mut State,
+) -> Box<dyn Stage> {
+    let walls: Vec<Body> = plain_walls(&scene.walls, scene.dimensions)
+        .into_iter()
+        .map(|(_, body)| body)
+        .collect();
     let (water, dimensions) = (state.sets.len() - 1, state.dimensions);
     let set = &mut state.sets[solid.set];
     [DEFORMATION, DEFORMATION_RATE, BEND_RATE, WARP_RATE]
@@ -165,22 +174,22 @@ pub(super) fn meet(of: &WaterScene, law: Tait, solid: &Made, state: &mut State) 
         (2, KernelScene::Spline) => wet(
             law,
             friction,
-            Sight::new(water, skin, CubicSpline::<2>::new(h)),
+            Sight::new(water, skin, CubicSpline::<2>::new(h), walls),
         ),
         (2, KernelScene::Wendland) => wet(
             law,
             friction,
-            Sight::new(water, skin, Wendland::<2>::new(h)),
+            Sight::new(water, skin, Wendland::<2>::new(h), walls),
         ),
         (_, KernelScene::Spline) => wet(
             law,
             friction,
-            Sight::new(water, skin, CubicSpline::<3>::new(h)),
+            Sight::new(water, skin, CubicSpline::<3>::new(h), walls),
         ),
         (_, KernelScene::Wendland) => wet(
             law,
             friction,
-            Sight::new(water, skin, Wendland::<3>::new(h)),
+            Sight::new(water, skin, Wendland::<3>::new(h), walls),
         ),
     }
 }

@@ -120,50 +120,112 @@ impl Cells {
         whole.then_some(a as usize)
     }
 
+    /// A walk that begins in the unbroken cell of particle `a`, at an offset \[m\] from its middle along the axes of the lattice at
+    /// rest; none from a broken cell.
+    #[must_use]
+    pub fn walk<'a>(&'a self, broken: &'a [u8], a: usize, offset: [f64; 3]) -> Option<Walk<'a>> {
+        let at = self.cell[a].map(i64::from);
+        Some(Walk {
+            own: self.at(at, broken)?,
+            cells: self,
+            broken,
+            at,
+            inside: [0, 1, 2].map(|k| offset[k] / self.size[k]),
+            cells_left: CELLS_MOST,
+        })
+    }
+
     /// Where a line leaves the solid that begins in the cell of particle `a` at an offset \[m\] and goes a way \[m\], both along
     /// the axes of the lattice at rest; none from a broken cell or too deep inside.
     #[must_use]
     pub fn leave(&self, broken: &[u8], a: usize, offset: [f64; 3], way: [f64; 3]) -> Option<Place> {
-        let mut at = self.cell[a].map(i64::from);
-        let mut own = self.at(at, broken)?;
-        let scaled = |x: [f64; 3], k: usize| x[k] / self.size[k];
-        let way = [0, 1, 2].map(|k| {
-            if k < self.dimensions {
-                scaled(way, k)
-            } else {
-                0.0
-            }
-        });
-        let mut inside = [0, 1, 2].map(|k| scaled(offset, k));
-        for _ in 0..CELLS_MOST {
-            let until = |k: usize| (0.5 * way[k].signum() - inside[k]) / way[k];
-            let axes = (0..self.dimensions).filter(|k| way[*k] != 0.0);
-            let axis = axes.min_by(|k, l| until(*k).total_cmp(&until(*l)))?;
-            let (time, step) = (until(axis).max(0.0), way[axis].signum());
-            (0..self.dimensions).for_each(|k| inside[k] += time * way[k]);
-            inside[axis] = 0.5 * step;
-            at[axis] += step as i64;
-            if let Some(next) = self.at(at, broken) {
-                own = next;
-                inside[axis] = -0.5 * step;
-                continue;
-            }
-            let offset = [0, 1, 2].map(|k| inside[k] * self.size[k]);
-            let mut depth = [0.0; 3];
-            depth[axis] = offset[axis];
-            return Some(Place {
-                cell: own,
-                offset,
-                depth,
-            });
+        match self.walk(broken, a, offset)?.go(way, f64::INFINITY) {
+            Reached::Face(place, _) => Some(place),
+            Reached::End | Reached::Nothing => None,
         }
-        None
     }
 
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
         4 * self.particle.len() + 12 * self.cell.len()
+    }
+}
+
+/// A straight walk through the unbroken cells of a solid; it may go on in another direction.
+#[derive(Debug, Clone, Copy)]
+pub struct Walk<'a> {
+    cells: &'a Cells,
+    broken: &'a [u8],
+    /// The cell that it is in.
+    at: [i64; 3],
+    own: usize,
+    /// Where it is in this cell, in cells from its middle.
+    inside: [f64; 3],
+    cells_left: usize,
+}
+
+/// Where a walk has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reached {
+    /// To the end of its way, within the solid.
+    End,
+    /// To a face of the solid, after a part of its way.
+    Face(Place, f64),
+    /// Nowhere: it went through too many cells.
+    Nothing,
+}
+
+impl Walk<'_> {
+    /// Goes along a way at rest \[m\], as often it as `until` tells, but no further than the face of the solid.
+    #[must_use]
+    pub fn go(&mut self, way: [f64; 3], until: f64) -> Reached {
+        let (size, dimensions) = (self.cells.size, self.cells.dimensions);
+        let way = [0, 1, 2].map(|k| {
+            if k < dimensions {
+                way[k] / size[k]
+            } else {
+                0.0
+            }
+        });
+        let mut gone = 0.0;
+        while self.cells_left > 0 {
+            let time = |k: usize| (0.5 * way[k].signum() - self.inside[k]) / way[k];
+            let axes = (0..dimensions).filter(|k| way[*k] != 0.0);
+            let Some(axis) = axes.min_by(|k, l| time(*k).total_cmp(&time(*l))) else {
+                break;
+            };
+            let (time, step) = (time(axis).max(0.0), way[axis].signum());
+            let ends = gone + time >= until;
+            let part = if ends { until - gone } else { time };
+            (0..dimensions).for_each(|k| self.inside[k] += part * way[k]);
+            if ends {
+                return Reached::End;
+            }
+            gone += time;
+            self.inside[axis] = 0.5 * step;
+            let mut next = self.at;
+            next[axis] += step as i64;
+            let Some(other) = self.cells.at(next, self.broken) else {
+                return Reached::Face(self.face(axis), gone);
+            };
+            (self.own, self.at) = (other, next);
+            self.inside[axis] = -0.5 * step;
+            self.cells_left -= 1;
+        }
+        Reached::Nothing
+    }
+
+    /// The place on the face of the present cell across an axis.
+    fn face(&self, axis: usize) -> Place {
+        let offset = [0, 1, 2].map(|k| self.inside[k] * self.cells.size[k]);
+        let mut depth = [0.0; 3];
+        depth[axis] = offset[axis];
+        Place {
+            cell: self.own,
+            offset,
+            depth,
+        }
     }
 }
 

@@ -9,11 +9,11 @@
 //! ```
 //!
 //! so that an unbroken solid has no gaps at any ratio of spacings. A force on x_p acts on the face between it and the water
-//! (see [`super::faces`]).
+//! (see [`super::faces`] and [`super::touch`]).
 
 use particles::{Column, POSITION, Set, sweep};
 
-use super::faces::{Cells, Moving, Place};
+use super::faces::Cells;
 use crate::matter::solid::tensor::{Matrix, cofactor, determinant};
 
 /// F along the axes of the lattice.
@@ -56,7 +56,9 @@ pub struct Skin {
     /// From the middle of a cell to its corner at rest \[m\].
     radius: f64,
     /// The cells of its lattice; none where water sees particles as they stand.
-    cells: Option<Cells>,
+    pub(super) cells: Option<Cells>,
+    /// Half of the spacing of the water \[m\].
+    closed_gap: f64,
     /// The points near water, by cell.
     pub points: Vec<Point>,
 }
@@ -106,24 +108,21 @@ impl Skin {
             spacing: volume.powf(1.0 / dimensions as f64),
             radius: 0.5 * size[..dimensions].iter().map(|x| x * x).sum::<f64>().sqrt(),
             cells,
+            closed_gap: 0.5 * water,
             points: Vec::new(),
         }
     }
 
-    /// Where the water at an offset `dx` \[m\] from point `p` acts on the solid.
+    /// Volume of a part at rest \[m3\].
     #[must_use]
-    pub fn pressed(&self, moving: &Moving<'_>, p: u32, dx: [f64; 3]) -> Place {
-        let point = &self.points[p as usize];
-        let cell = point.cell as usize;
-        let left = self.cells.as_ref().and_then(|cells| {
-            let way = [0, 1, 2].map(|k| (0..3).map(|i| point.back[i][k] * dx[i]).sum());
-            cells.leave(moving.broken, cell, point.offset, way)
-        });
-        left.unwrap_or(Place {
-            cell,
-            offset: [0.0; 3],
-            depth: [0.0; 3],
-        })
+    pub(super) fn part_volume(&self) -> f64 {
+        self.volume
+    }
+
+    /// A gap between a solid and a wall into which no water fits \[m\].
+    #[must_use]
+    pub(super) fn closed_gap(&self) -> f64 {
+        self.closed_gap
     }
 
     /// Finds the points of cells within `reach` \[m\] of something, as `near` tells of a place and a distance.

@@ -160,6 +160,7 @@ impl<const D: usize, K: Kernel> Stage for Flow<D, K> {
         self.look(set, exchanges, |density| law.pressure(density));
         self.compression.over(dt, set, &law);
         let forces = self.all_forces();
+        self.walls.bear(&mut state.on_walls);
         let mut acceleration = set.take(&ACCELERATION);
         let mass = set.column(&MASS);
         sweep::change(&mut acceleration, |a, own| {

@@ -35,6 +35,14 @@ impl Walls {
         }
     }
 
+    /// Takes over what others found that walls bear \[N\].
+    pub(super) fn bear(&mut self, found: &mut [[f64; 3]]) {
+        for (force, found) in self.forces.iter_mut().zip(found) {
+            let more = std::mem::take(found);
+            (0..3).for_each(|k| force[k] += more[k]);
+        }
+    }
+
     /// Counts the present forces over a step of `dt` \[s\]; gives what all walls exert on the water \[N\].
     pub(super) fn press(&mut self, dt: f64) -> [f64; 3] {
         let pushes = self.pushes.iter_mut().zip(&self.forces);
