@@ -2,6 +2,7 @@
 
 mod pouring;
 mod preview;
+mod room;
 mod solid;
 mod water;
 
@@ -41,6 +42,7 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Vec<Fault>> {
     let mut state = State::new(scene.dimensions);
     let mut faults = Vec::new();
     let (solids, mut stages) = solid::solids(scene, &mut state, &mut faults);
+    faults.extend(room::faults(scene, &state));
     let (mut left_out, mut notes) = (Vec::new(), Vec::new());
     let mut last = Vec::new();
     if let Some(of) = &scene.water {

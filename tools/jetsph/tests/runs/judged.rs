@@ -165,3 +165,46 @@ fn water_that_is_compressed_much_is_told() {
     // Ten times as fast as the water: the rule of the source.
     assert_eq!(told(50.0), None);
 }
+
+/// Solids within each other burst apart, and water of a nozzle within a wall or a solid was put before it.
+#[test]
+fn solids_within_each_other_and_nozzles_within_anything_are_refused() {
+    let solid = |name: &str, low: f64| {
+        let high = low + 0.004;
+        format!(
+            r#"{{"name": "{name}", "spacing_m": 0.001, "density_kg_m3": 1000,
+                "body": {{"box": {{"min_m": [{low}, 0], "max_m": [{high}, 0.004]}}}},
+                "elastic": {{"youngs_modulus_pa": 1e6, "poisson_ratio": 0.3}}}}"#
+        )
+    };
+    let both = |low: f64| {
+        let both = [solid("left", 0.0), solid("right", low)].join(", ");
+        scene(
+            &body([0, 6], [8, 9], ""),
+            SOUND,
+            &format!(r#", "solids": [{both}]"#),
+        )
+    };
+    let said = refused(&both(0.002));
+    assert!(
+        said.contains("/solids/1/body") && said.contains("8 of its 16"),
+        "{said}"
+    );
+    assert!(assemble(&parsed(&both(0.004))).is_ok());
+    let nozzle = |y: f64| {
+        let nozzle = format!(
+            r#", "nozzles": [{{"name": "jet", "exit_m": [0.002, {y}], "direction": [0, 1], "width_m": 0.002, "speed_m_s": 2}}]"#
+        );
+        scene(
+            "",
+            &nozzle,
+            &format!(r#", "solids": [{}]"#, solid("left", 0.0)),
+        )
+    };
+    let said = refused(&nozzle(0.002));
+    assert!(
+        said.contains("/water/nozzles/0/exit_m") && said.contains("\"left\""),
+        "{said}"
+    );
+    assert!(assemble(&parsed(&nozzle(0.004))).is_ok());
+}
