@@ -7,7 +7,7 @@ use artefact::Reader;
 use run::Failure;
 use serde_json::{Map, Value, json};
 
-use crate::files::print;
+use crate::files::{print, warn};
 use crate::flux::Flux;
 use crate::measure::bead::MEASURES;
 use crate::measure::slag::Slag;
@@ -24,6 +24,8 @@ pub(crate) struct Measured {
     pub(crate) value: f64,
     /// Least and greatest value along the weld, and whether that has frozen; none of what is measured at one place.
     along: Option<([f64; 2], bool)>,
+    /// A depth that is the thickness of a plate that is fused through.
+    through: bool,
 }
 
 /// Whether a measure of that name exists.
@@ -43,6 +45,7 @@ pub(crate) fn of(reader: &Reader, stretch: Option<&Stretch>) -> artefact::Result
             unit: named.unit,
             value: measure.value,
             along: Some((measure.range, stretch.frozen)),
+            through: named.name == "penetration" && stretch.through(),
         })
     });
     let mut all: Vec<Measured> = bead.collect();
@@ -54,6 +57,7 @@ pub(crate) fn of(reader: &Reader, stretch: Option<&Stretch>) -> artefact::Result
             unit: "m",
             value,
             along: None,
+            through: false,
         }));
     }
     Ok(all)
@@ -71,11 +75,12 @@ fn slag(reader: &Reader) -> artefact::Result<Option<Slag>> {
 /// Prints every measure of a weld at its end as JSON.
 ///
 /// `{"penetration": {"value": 0.0035, "unit": "m", "range": [0.003, 0.004], "frozen": true}, ...}`; an empty object where
-/// nothing has ever melted. Of welds under flux `slag_greatest`, `slag_middle` and `slag_beside` tell how thick the slag lies behind the
+/// nothing has ever melted. `"through": true` stands where the plate is fused through. Of welds under flux `slag_greatest`, `slag_middle` and `slag_beside` tell how thick the slag lies behind the
 /// arc at the end.
 pub(crate) fn run(pool: &Path) -> Result<ExitCode, Failure> {
     let reader = Reader::open_sound(pool, "particle-frames", 1)?;
-    let stretch = Weld::last(&reader)?.and_then(|weld| weld.bead());
+    let weld = Weld::last(&reader)?;
+    let stretch = weld.as_ref().and_then(Weld::bead);
     let mut told = Map::new();
     for measured in of(&reader, stretch.as_ref())? {
         let mut value = json!({"value": measured.value, "unit": measured.unit});
@@ -83,9 +88,15 @@ pub(crate) fn run(pool: &Path) -> Result<ExitCode, Failure> {
             value["range"] = json!(range);
             value["frozen"] = json!(frozen);
         }
+        if measured.through {
+            value["through"] = json!(true);
+        }
         told.insert(measured.name.to_owned(), value);
     }
     let text = format!("{:#}\n", Value::Object(told));
     print(&text)?;
-    Ok(ExitCode::SUCCESS)
+    match weld.as_ref().and_then(Weld::strayed) {
+        Some(told) => warn(pool, &told),
+        None => Ok(ExitCode::SUCCESS),
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use run::Failure;
 
@@ -355,4 +356,20 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         action: "write",
         source,
     })
+}
+
+/// Says on stderr what of a file is to be known; the exit code of what ended with warnings.
+///
+/// # Errors
+/// When nothing can be written there.
+pub(crate) fn warn(path: &Path, what: &str) -> Result<ExitCode, Failure> {
+    let text = format!("warning: {}: {what}\n", path.display());
+    let mut out = std::io::stderr().lock();
+    let written = out.write_all(artefact::shown(&text).as_bytes());
+    written.map_err(|source| Failure::Io {
+        path: "stderr".into(),
+        action: "write",
+        source,
+    })?;
+    Ok(ExitCode::from(3))
 }

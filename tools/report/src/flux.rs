@@ -4,7 +4,7 @@ use artefact::Reader;
 use serde_json::Value;
 
 use crate::mirror::Mirror;
-use crate::weld::Weld;
+use crate::weld::{Way, Weld};
 
 /// Channel of the grains.
 pub(crate) const GRAINS: &str = "/grains";
@@ -13,7 +13,7 @@ pub(crate) const GRAINS: &str = "/grains";
 pub(crate) const POWDER: u8 = 0;
 pub(crate) const SLAG: u8 = 1;
 
-/// The wire as the section along the weld cuts it \[mm\].
+/// The wire as the section along the weld cuts it: along the weld (y) and up (z) \[mm\].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Wire {
     pub(crate) y: [f64; 2],
@@ -77,12 +77,14 @@ impl Flux {
                 Vec::new()
             },
             radius: frame.f64("radius")?,
-            wire: wire(scene, weld.time),
+            wire: wire(scene, weld.time, &weld.way),
             weld,
         };
         if let Some(mirror) = flux.weld.mirror {
             flux.complete(mirror);
         }
+        let way = flux.weld.way;
+        flux.position.iter_mut().for_each(|p| way.turn(p));
         Ok(Some(flux))
     }
 
@@ -100,8 +102,8 @@ impl Flux {
     }
 }
 
-/// The first upright round wall that is fed along itself, at a time \[s\].
-fn wire(scene: &Value, time: f64) -> Option<Wire> {
+/// The first upright round wall that is fed along itself, at a time \[s\], in the coordinates of the weld.
+fn wire(scene: &Value, time: f64, way: &Way) -> Option<Wire> {
     let walls = scene.pointer("/grains/walls")?.as_array()?;
     let fed = walls.iter().find(|wall| {
         wall.get("surface_m_s").is_some_and(Value::is_array)
@@ -109,11 +111,11 @@ fn wire(scene: &Value, time: f64) -> Option<Wire> {
     })?;
     let cylinder = fed.pointer("/shape/cylinder")?;
     let number = |of: &Value, at: &str| of.pointer(at).and_then(Value::as_f64);
-    let moved = number(fed, "/velocity_m_s/1").unwrap_or(0.0) * time;
-    let (y, z) = (
-        number(cylinder, "/centre_m/1")? + moved,
-        number(cylinder, "/centre_m/2")?,
-    );
+    let moved = |k: usize| number(fed, &format!("/velocity_m_s/{k}")).unwrap_or(0.0) * time;
+    let at = |k: usize| Some(number(cylinder, &format!("/centre_m/{k}"))? + moved(k));
+    let mut place = [at(0)?, at(1)?, number(cylinder, "/centre_m/2")?];
+    way.turn(&mut place);
+    let [_, y, z] = place;
     let (radius, half) = (
         number(cylinder, "/radius_m")?,
         0.5 * number(cylinder, "/length_m")?,
@@ -138,12 +140,15 @@ mod tests {
             {"shape": {"cylinder": {"centre_m": [0, 0.01, 0.0229], "radius_m": 2e-3, "length_m": 0.04}},
              "velocity_m_s": [0, 0.005, 0], "surface_m_s": [0, 0, -0.021]}
         ]}});
-        let wire = wire(&scene, 2.0).unwrap();
+        let wire = wire(&scene, 2.0, &Way::default()).unwrap();
         let close = |a: [f64; 2], b: [f64; 2]| (0..2).all(|k| (a[k] - b[k]).abs() < 1e-9);
         assert!(
             close(wire.y, [18.0, 22.0]) && close(wire.z, [2.9, 42.9]),
             "{wire:?}"
         );
-        assert_eq!(super::wire(&json!({"grains": {"walls": []}}), 0.0), None);
+        assert_eq!(
+            super::wire(&json!({"grains": {"walls": []}}), 0.0, &Way::default()),
+            None
+        );
     }
 }

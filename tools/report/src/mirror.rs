@@ -42,6 +42,11 @@ impl Mirror {
         })
     }
 
+    /// x of the plane \[m\].
+    pub(crate) fn at(self) -> f64 {
+        self.at
+    }
+
     /// Places with their images behind them.
     pub(crate) fn places(self, half: &mut Vec<[f64; 3]>) {
         let images: Vec<_> = half

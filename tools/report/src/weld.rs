@@ -1,9 +1,14 @@
 //! The weld as its last frame shows it: particles, plate, source, and the stretch that has frozen.
 
+mod stretch;
+mod way;
+
 use artefact::{Frame, Reader};
 use serde::Deserialize;
 
-use crate::measure::bead::{self, Bead, measure_of};
+pub(crate) use self::stretch::Stretch;
+pub(crate) use self::way::{Source, Way};
+use crate::measure::bead::{self, Bead};
 use crate::measure::section::{Metal, Plane, SUPPORT, Section};
 use crate::measure::spatter;
 use crate::mirror::Mirror;
@@ -35,13 +40,16 @@ pub(crate) struct Plate {
     /// Melting point \[K\].
     #[serde(default)]
     pub(crate) melting_point_k: Option<f64>,
+    /// Direction of welding.
+    #[serde(default)]
+    direction: Option<[f64; 3]>,
 }
 
-/// Where the source is.
-#[derive(Debug, Clone, Copy, Deserialize)]
-pub(crate) struct Source {
-    pub(crate) x_m: f64,
-    pub(crate) y_m: f64,
+impl Plate {
+    /// How thick the base metal is \[m\].
+    fn thickness(&self) -> Option<f64> {
+        Some(self.max_m?[2] - self.min_m?[2])
+    }
 }
 
 /// The particles of one frame with what is known of them.
@@ -49,8 +57,10 @@ pub(crate) struct Source {
 pub(crate) struct Weld {
     /// Simulated time \[s\].
     pub(crate) time: f64,
-    /// Positions x (across), y (along), z (up) \[m\].
+    /// Positions across the weld, along it, and up from the original surface \[m\].
     pub(crate) position: Vec<[f64; 3]>,
+    /// Number of each particle in its frame; an image has that of its original.
+    pub(crate) row: Vec<usize>,
     /// Temperatures \[K\], where the run computed them.
     pub(crate) temperature: Option<Vec<f64>>,
     /// Liquid now.
@@ -68,6 +78,8 @@ pub(crate) struct Weld {
     pub(crate) lost: usize,
     /// The mirror beside which half of it was computed; its image is among the particles.
     pub(crate) mirror: Option<Mirror>,
+    /// What across, along and up are in the scene.
+    pub(crate) way: Way,
 }
 
 impl Weld {
@@ -89,9 +101,11 @@ impl Weld {
     pub(crate) fn read(reader: &Reader, index: usize) -> artefact::Result<Self> {
         let frame = reader.frame(PARTICLES, index)?;
         let plate: Plate = reader.json_at("/plate", 0)?;
+        let position = frame.position_vectors()?;
         let mut weld = Self {
             time: frame.time_s,
-            position: frame.position_vectors()?,
+            row: (0..position.len()).collect(),
+            position,
             temperature: if frame.has("temperature") {
                 Some(frame.f64("temperature")?)
             } else {
@@ -103,8 +117,9 @@ impl Weld {
             } else {
                 "molten"
             })?,
+            way: Way::of(reader, &plate)?,
             plate,
-            source: source_at(reader, frame.time_s)?,
+            source: Source::at(reader, frame.time_s)?,
             joined: Vec::new(),
             lost: 0,
             mirror: Mirror::read(reader)?,
@@ -117,6 +132,7 @@ impl Weld {
         if let Some(mirror) = weld.mirror {
             weld.complete(mirror);
         }
+        weld.position.iter_mut().for_each(|p| weld.way.turn(p));
         let link = LINK * weld.plate.spacing_m;
         let fused: Vec<bool> = (0..weld.position.len())
             .map(|i| weld.was_liquid(i))
@@ -130,6 +146,7 @@ impl Weld {
     fn complete(&mut self, mirror: Mirror) {
         self.lost *= 2;
         mirror.places(&mut self.position);
+        mirror.values(&mut self.row);
         mirror.values(&mut self.liquid);
         mirror.values(&mut self.fused);
         self.temperature.iter_mut().for_each(|t| mirror.values(t));
@@ -161,6 +178,7 @@ impl Weld {
             *values = kept.map(|(v, _)| *v).collect();
         }
         only(&mut self.position, keep);
+        only(&mut self.row, keep);
         only(&mut self.liquid, keep);
         only(&mut self.fused, keep);
         if let Some(temperature) = &mut self.temperature {
@@ -187,13 +205,58 @@ impl Weld {
         }
     }
 
-    /// The weld's centre plane \[m\].
-    pub(crate) fn centre(&self) -> f64 {
-        match (self.source, self.plate.min_m, self.plate.max_m) {
-            (Some(source), _, _) => source.x_m,
-            (None, Some(low), Some(high)) => 0.5 * (low[0] + high[0]),
-            _ => 0.0,
+    /// Where the weld's centre plane is across \[m\]: that of the torches, of the source, or of the mirror; none without any of these.
+    pub(crate) fn centre(&self) -> Option<f64> {
+        let source = self.source.map(|source| self.way.across(source.place()));
+        let mirror = self.mirror.filter(|_| self.way.in_plane());
+        let mirror = mirror.map(|mirror| self.way.across([mirror.at(), 0.0]));
+        self.way.line().or(source).or(mirror)
+    }
+
+    /// The plane that pictures go by \[m\]: the centre plane, or without one the middle of what has been fused.
+    pub(crate) fn middle(&self) -> f64 {
+        let fused = || self.extent(0, |i| self.was_liquid(i) && self.joined[i]);
+        let all = || self.extent(0, |_| true);
+        let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
+        (self.centre()).unwrap_or_else(|| fused().or_else(all).map_or(0.0, middle))
+    }
+
+    /// A quantity of a picture with the coordinate that it is in the scene; without one where the weld is turned in the scene.
+    pub(crate) fn titled(&self, words: &str, coordinate: &str) -> String {
+        match self.way.is_y() {
+            true => format!("{words} {coordinate} [mm]"),
+            false => format!("{} [mm]", words.trim_end_matches(',')),
         }
+    }
+
+    /// The height as pictures call it.
+    pub(crate) fn height(&self) -> String {
+        match self.way.top().abs() > 0.0 {
+            true => "height above the plate [mm]".to_owned(),
+            false => "height z [mm]".to_owned(),
+        }
+    }
+
+    /// A place along the weld, in words.
+    pub(crate) fn placed(&self, place: &str) -> String {
+        match self.way.is_y() {
+            true => format!("y = {place}"),
+            false => format!("a place along it of {place}"),
+        }
+    }
+
+    /// What is to be said of a torch that leaves the line that sections are cut by; nothing where none does.
+    pub(crate) fn strayed(&self) -> Option<String> {
+        let off = 1e3 * self.way.strays()?;
+        Some(format!(
+            "The path of a torch strays {off:.1} mm from the line from its first corner to its last. Sections are cut across that line: \
+             where the path runs at an angle to it, widths are too great by 1 over the cosine of that angle. Measure legs in runs of their own."
+        ))
+    }
+
+    /// Where the source is along the weld \[m\].
+    pub(crate) fn source_along(&self) -> Option<f64> {
+        self.source.map(|source| self.way.along(source.place()))
     }
 
     /// The section across the weld at `place` \[m\], with its measures.
@@ -210,24 +273,29 @@ impl Weld {
             spacing: self.plate.spacing_m,
         };
         let section = Section::cut(&metal, Plane::Across, place);
-        let bead = bead::measure(&section, self.centre(), self.plate.spacing_m);
+        let plate = bead::Base {
+            centre: self.centre(),
+            thickness: self.plate.thickness(),
+            spacing: self.plate.spacing_m,
+        };
+        let bead = bead::measure(&section, plate);
         (section, bead)
     }
 
-    /// Least and greatest y of the particles that `counts` names \[m\].
-    fn extent(&self, counts: impl Fn(usize) -> bool) -> Option<[f64; 2]> {
+    /// Least and greatest coordinate `k` of the particles that `counts` names \[m\].
+    fn extent(&self, k: usize, counts: impl Fn(usize) -> bool) -> Option<[f64; 2]> {
         let y = self.position.iter().enumerate().filter(|(i, _)| counts(*i));
-        y.map(|(_, p)| p[1]).fold(None, |range, y| match range {
+        y.map(|(_, p)| p[k]).fold(None, |range, y| match range {
             None => Some([y, y]),
             Some([low, high]) => Some([low.min(y), high.max(y)]),
         })
     }
 
-    /// Range of y worth showing \[m\]: what has been fused, with room, at least `LEAST_SHOWN`; all
+    /// Range along the weld worth showing \[m\]: what has been fused, with room, at least `LEAST_SHOWN`; all
     /// where that is most of the metal or where nothing has been fused.
     pub(crate) fn window(&self) -> Option<[f64; 2]> {
-        let all = self.extent(|_| true)?;
-        let Some([start, end]) = self.extent(|i| self.was_liquid(i) && self.joined[i]) else {
+        let all = self.extent(1, |_| true)?;
+        let Some([start, end]) = self.extent(1, |i| self.was_liquid(i) && self.joined[i]) else {
             return Some(all);
         };
         let more = (0.5 * (LEAST_SHOWN - (end - start))).max(ROOM);
@@ -239,7 +307,7 @@ impl Weld {
     /// Measures of the bead along its frozen stretch; of the whole fused stretch, as far as it has
     /// come, when nothing has frozen.
     pub(crate) fn bead(&self) -> Option<Stretch> {
-        let [start, end] = self.extent(|i| self.was_liquid(i) && self.joined[i])?;
+        let [start, end] = self.extent(1, |i| self.was_liquid(i) && self.joined[i])?;
         let step = 2.0 * self.plate.spacing_m;
         let liquid: Vec<f64> = (0..self.liquid.len())
             .filter(|i| self.liquid[*i] && self.joined[*i])
@@ -266,78 +334,6 @@ impl Weld {
     }
 }
 
-/// Sections measured one after another along the weld.
-#[derive(Debug, Clone)]
-pub(crate) struct Stretch {
-    /// Whether all of it has frozen and lies beyond the run-in: the bead that an experiment shows.
-    pub(crate) frozen: bool,
-    /// Place \[m\] and measures of each section, in the order of y.
-    pub(crate) beads: Vec<(f64, Bead)>,
-}
-
-/// A measure over a stretch.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Measure {
-    /// Median over a frozen stretch; greatest value while nothing has frozen.
-    pub(crate) value: f64,
-    /// Least and greatest value.
-    pub(crate) range: [f64; 2],
-}
-
-impl Stretch {
-    /// A measure by its name in the targets; `None` for an unknown name.
-    pub(crate) fn get(&self, name: &str) -> Option<Measure> {
-        let mut values: Vec<f64> = self
-            .beads
-            .iter()
-            .map(|(_, bead)| Some(measure_of(name)?.of(bead)))
-            .collect::<Option<_>>()?;
-        values.sort_by(f64::total_cmp);
-        let (low, high) = (*values.first()?, *values.last()?);
-        let half = values.len() / 2;
-        let median = if values.len() % 2 == 1 {
-            values[half]
-        } else {
-            0.5 * (values[half - 1] + values[half])
-        };
-        Some(Measure {
-            value: if self.frozen { median } else { high },
-            range: [low, high],
-        })
-    }
-
-    /// Length measured \[m\].
-    pub(crate) fn length(&self) -> f64 {
-        match (self.beads.first(), self.beads.last()) {
-            (Some(a), Some(b)) => b.0 - a.0,
-            _ => 0.0,
-        }
-    }
-
-    /// The section to show: the middle of a frozen stretch, else the deepest.
-    pub(crate) fn place(&self) -> Option<f64> {
-        if self.frozen {
-            return self.beads.get(self.beads.len() / 2).map(|b| b.0);
-        }
-        let deepest =
-            |a: &&(f64, Bead), b: &&(f64, Bead)| a.1.penetration.total_cmp(&b.1.penetration);
-        self.beads.iter().max_by(deepest).map(|b| b.0)
-    }
-}
-
 fn flags(frame: &Frame, name: &str) -> artefact::Result<Vec<bool>> {
     Ok(frame.u8(name)?.iter().map(|flag| *flag != 0).collect())
-}
-
-/// The source at the last moment of its channel that is not after `time`.
-fn source_at(reader: &Reader, time: f64) -> artefact::Result<Option<Source>> {
-    if !reader.has("/source") {
-        return Ok(None);
-    }
-    let times = reader.times("/source")?;
-    let after = times.partition_point(|t| *t <= time + 1e-9);
-    match after.checked_sub(1) {
-        Some(index) => reader.json_at("/source", index).map(Some),
-        None => Ok(None),
-    }
 }

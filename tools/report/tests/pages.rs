@@ -7,6 +7,8 @@ mod beside;
 mod browser;
 #[path = "pages/handover.rs"]
 mod handover;
+#[path = "pages/placed.rs"]
+mod placed;
 mod sample;
 
 use std::path::{Path, PathBuf};

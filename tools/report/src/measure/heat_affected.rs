@@ -7,7 +7,7 @@
 
 use artefact::Reader;
 
-use crate::weld::{PARTICLES, Plate};
+use crate::weld::{PARTICLES, Weld};
 
 /// Ac1 of mild steel, 727 degrees Celsius \[K\].
 pub(crate) const AC1: f64 = 1000.15;
@@ -19,11 +19,14 @@ const SLICE: f64 = 2.0;
 pub(crate) struct Zone {
     /// \[K\].
     pub(crate) isotherm: f64,
-    /// y of the slice \[m\].
+    /// Where the slice is along the weld \[m\].
     pub(crate) place: f64,
-    /// On the surface, towards lesser x \[m\]; none where the isotherm or the fusion line is not met.
+    /// Whether the weld runs along +y, so that the place is y.
+    pub(crate) along_y: bool,
+    /// On the surface, to the left of the direction of welding (lesser x along +y) \[m\]; none where the isotherm or the fusion
+    /// line is not met.
     pub(crate) left: Option<f64>,
-    /// Towards greater x \[m\].
+    /// To the right of it \[m\].
     pub(crate) right: Option<f64>,
     /// Below the weld \[m\].
     pub(crate) below: Option<f64>,
@@ -40,21 +43,17 @@ pub(crate) fn zone(reader: &Reader, isotherm: f64) -> artefact::Result<Option<Zo
     if count < 2 || !reader.has("/plate") {
         return Ok(None);
     }
-    let plate: Plate = reader.json_at("/plate", 0)?;
-    let (Some(top), Some(melting)) = (plate.max_m.map(|p| p[2]), plate.melting_point_k) else {
-        return Ok(None);
-    };
     let last = reader.frame(PARTICLES, count - 1)?;
     if !(last.has("temperature") && last.has("fused") && last.has("id")) {
         return Ok(None);
     }
-    let (position, fused) = (last.position_vectors()?, last.f64("fused")?);
+    let weld = Weld::read(reader, count - 1)?;
+    let (Some(_), Some(melting)) = (weld.plate.max_m, weld.plate.melting_point_k) else {
+        return Ok(None);
+    };
     let melted = || {
-        position
-            .iter()
-            .zip(&fused)
-            .filter(|(_, f)| **f >= 0.5)
-            .map(|(p, _)| p)
+        let own = (0..weld.position.len()).filter(|i| weld.was_liquid(*i) && weld.belongs(*i));
+        own.map(|i| weld.position[i])
     };
     let ends = melted().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| {
         [a.min(p[1]), b.max(p[1])]
@@ -63,25 +62,26 @@ pub(crate) fn zone(reader: &Reader, isotherm: f64) -> artefact::Result<Option<Zo
         return Ok(None);
     }
     let place = 0.5 * (ends[0] + ends[1]);
-    let spacing = plate.spacing_m;
-    let near = |p: &[f64; 3]| (p[1] - place).abs() < SLICE * spacing && p[2] < top;
-    let chosen: Vec<usize> = (0..position.len())
-        .filter(|i| near(&position[*i]))
-        .collect();
+    let spacing = weld.plate.spacing_m;
+    let near = |p: &[f64; 3]| (p[1] - place).abs() < SLICE * spacing && p[2] < 0.0;
+    let chosen = (0..weld.position.len()).filter(|i| weld.belongs(*i) && near(&weld.position[*i]));
     let peaks = peaks(reader, count, last.u32("id")?)?;
     let slice: Vec<([f64; 2], f64)> = chosen
-        .iter()
-        .map(|i| ([position[*i][0], position[*i][2]], peaks[*i]))
+        .map(|i| {
+            let [across, _, up] = weld.position[i];
+            ([across, up], peaks[weld.row[i]])
+        })
         .collect();
     let middle = melted().map(|p| p[0]).sum::<f64>() / melted().count() as f64;
     let times = [
         reader.time(PARTICLES, 0)?,
         reader.time(PARTICLES, count - 1)?,
     ];
-    let [left, right, below] = widths(&slice, [middle, top], spacing, [isotherm, melting]);
+    let [left, right, below] = widths(&slice, middle, spacing, [isotherm, melting]);
     Ok(Some(Zone {
         isotherm,
         place,
+        along_y: weld.way.is_y(),
         left,
         right,
         below,
@@ -89,24 +89,25 @@ pub(crate) fn zone(reader: &Reader, isotherm: f64) -> artefact::Result<Option<Zo
     }))
 }
 
-/// Widths on the surface, towards lesser and greater x, and below the middle of the weld, of particles at (x, z) with their peaks.
+/// Widths on the surface, towards lesser and greater x, and below the middle of the weld, of particles
+/// at (across, up) with their peaks.
 fn widths(
     slice: &[([f64; 2], f64)],
-    [middle, top]: [f64; 2],
+    middle: f64,
     spacing: f64,
     temperatures: [f64; 2],
 ) -> [Option<f64>; 3] {
     let surface = |side: f64| {
         let on = slice
             .iter()
-            .filter(|(p, _)| p[1] > top - spacing && side * (p[0] - middle) > 0.0);
+            .filter(|(p, _)| p[1] > -spacing && side * (p[0] - middle) > 0.0);
         let line = on.map(|(p, t)| (side * (p[0] - middle), *t));
         width(line, spacing, temperatures)
     };
     let under = slice
         .iter()
         .filter(|(p, _)| (p[0] - middle).abs() < spacing);
-    let line = under.map(|(p, t)| (top - p[1], *t));
+    let line = under.map(|(p, t)| (-p[1], *t));
     [
         surface(-1.0),
         surface(1.0),

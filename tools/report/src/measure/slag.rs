@@ -36,7 +36,7 @@ pub(crate) const BEHIND: f64 = 10e-3;
 impl Slag {
     /// Of the section [`BEHIND`] the arc; none without arc or slag.
     pub(crate) fn behind(flux: &Flux) -> Option<Self> {
-        Self::across(flux, flux.weld.source?.y_m - BEHIND)
+        Self::across(flux, flux.weld.source_along()? - BEHIND)
     }
 
     /// Of the section at `place` \[m\]; none where no slag lies.
@@ -44,7 +44,7 @@ impl Slag {
         let all = flux.position.iter().zip(&flux.radius).zip(&flux.state);
         let slag =
             all.filter(|((at, _), state)| **state != POWDER && (at[1] - place).abs() < 0.5 * LONG);
-        let centre = flux.weld.centre();
+        let centre = flux.weld.middle();
         let slag: Vec<_> = slag
             .map(|((at, radius), _)| [at[0] - centre, *radius])
             .collect();

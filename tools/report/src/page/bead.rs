@@ -36,6 +36,7 @@ pub(super) fn section(
             "Half of this weld was computed, beside its mirror plane. It is shown and measured whole.",
         );
     }
+    body += &weld.strayed().map(|told| note(&told)).unwrap_or_default();
     if weld.lost > 0 {
         body += &note(&format!(
             "{} particles have left the plate over its edges; they are neither shown nor measured.",
@@ -49,7 +50,7 @@ pub(super) fn section(
     body += &views(weld, &paint)?;
     if let Some(stretch) = stretch {
         body += &sections(weld, &paint, stretch, published)?;
-        body += &along(stretch);
+        body += &along(weld, stretch);
     }
     body += &growth(&course, weld, &paint)?;
     Ok(body)
@@ -68,9 +69,13 @@ fn course(reader: &Reader) -> Result<Vec<Weld>, Failure> {
 }
 
 fn facts(weld: &Weld, stretch: &Stretch) -> Vec<(String, String)> {
+    let depth = match stretch.through() {
+        true => "penetration below the original surface: the plate is fused through",
+        false => "penetration below the original surface",
+    };
     let mut facts = Vec::new();
     for (name, words) in [
-        ("penetration", "penetration below the original surface"),
+        ("penetration", depth),
         ("fused_width", "greatest width fused below the surface"),
         ("reinforcement", "height above the surface"),
         ("bead_width", "width of the bead above the surface"),
@@ -140,9 +145,9 @@ fn sections(
                 "where the weld is deepest so far; not all of it has frozen"
             };
             let caption = format!(
-                "Section across the weld at y = {:.1} mm, {state}. The green line encloses all metal that \
+                "Section across the weld at {} mm, {state}. The green line encloses all metal that \
                  has ever been liquid; arrows measure it from the dashed original surface.{}",
-                1e3 * place,
+                weld.placed(&format!("{:.1}", 1e3 * place)),
                 if published == Published::default() {
                     ""
                 } else {
@@ -164,10 +169,11 @@ fn sections(
 }
 
 /// The measures over the place along the weld.
-fn along(stretch: &Stretch) -> String {
+fn along(weld: &Weld, stretch: &Stretch) -> String {
     if stretch.beads.len() < 3 {
         return String::new();
     }
+    let place = weld.titled("place along the weld", "y");
     let line = |name: &str, value: fn(&crate::measure::bead::Bead) -> f64| {
         let points = stretch
             .beads
@@ -175,10 +181,10 @@ fn along(stretch: &Stretch) -> String {
             .map(|(y, bead)| [1e3 * y, 1e3 * value(bead)]);
         Line::new(name, points.collect())
     };
-    let mut depth = Plot::new("place along the weld y [mm]", "depth and height [mm]").through(0.0);
+    let mut depth = Plot::new(&place, "depth and height [mm]").through(0.0);
     depth.add(line("penetration", |b| b.penetration));
     depth.add(line("height of the bead", |b| b.reinforcement));
-    let mut width = Plot::new("place along the weld y [mm]", "width [mm]").through(0.0);
+    let mut width = Plot::new(&place, "width [mm]").through(0.0);
     width.add(line("fused below the surface", |b| b.fused_width));
     width.add(line("bead above the surface", |b| b.bead_width));
     let what = if stretch.frozen {

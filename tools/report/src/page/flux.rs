@@ -53,10 +53,10 @@ pub(super) fn section(reader: &Reader, scene: &Value) -> Result<Option<String>, 
 
 /// The section across the weld some way behind the arc, and how thick the slag lies there; nothing where there is none.
 fn behind(last: &Flux) -> Result<String, Failure> {
-    let (Some(source), Some(slag)) = (last.weld.source, Slag::behind(last)) else {
+    let (Some(source), Some(slag)) = (last.weld.source_along(), Slag::behind(last)) else {
         return Ok(String::new());
     };
-    let place = source.y_m - BEHIND;
+    let place = source - BEHIND;
     let words = format!("{:.0} mm behind the arc", 1e3 * BEHIND);
     let mut body = String::new();
     let caption = format!("What each particle is in the section across the weld, {words}.");
@@ -65,7 +65,7 @@ fn behind(last: &Flux) -> Result<String, Failure> {
         body += &figure(&image, &caption);
     }
     let mut plot = Plot::new(
-        "distance from the centre x [mm]",
+        &last.weld.titled("distance from the centre", "x"),
         "thickness of the slag [mm]",
     )
     .through(0.0);

@@ -66,16 +66,24 @@ fn affected(zone: Zone) -> String {
     let millimetres =
         |width: Option<f64>| width.map_or_else(|| UNTOLD.to_owned(), |w| format!("{:.2}", 1e3 * w));
     let mut table = Rows::new(&["Heat-affected zone", "#Width [mm]"]);
+    let sides = match zone.along_y {
+        true => ["on the surface, lesser x", "on the surface, greater x"],
+        false => [
+            "on the surface, left of the weld",
+            "on the surface, right of the weld",
+        ],
+    };
+    let place = if zone.along_y { "y = " } else { "a place of " };
     for (name, width) in [
-        ("on the surface, lesser x", zone.left),
-        ("on the surface, greater x", zone.right),
+        (sides[0], zone.left),
+        (sides[1], zone.right),
         ("below the weld", zone.below),
     ] {
         table.row([name.to_owned(), millimetres(width)]);
     }
     table.render()
         + &paragraph(&format!(
-            "Metal that has not melted and was hotter than {} K (Ac1), half way along the weld, at y = {} mm. Peaks are those of \
+            "Metal that has not melted and was hotter than {} K (Ac1), half way along the weld, at {place}{} mm. Peaks are those of \
              frames every {} s.",
             number(zone.isotherm),
             number((1e6 * zone.place).round() * 1e-3),

@@ -139,12 +139,12 @@ pub(crate) fn within(
     let mut canvas = Canvas::new(WIDTH, height as usize);
     draw(&mut canvas, &axes, &discs, radius);
     let up = match view {
-        View::Above => "across, -x [mm]",
-        View::Side => "height z [mm]",
+        View::Above => weld.titled("across,", "-x"),
+        View::Side => weld.height(),
     };
-    axes.draw(&mut canvas, "along the weld y [mm]", up);
-    if let Some(source) = weld.source {
-        let at = axes.pixel([1e3 * source.y_m, y[1]]);
+    axes.draw(&mut canvas, &weld.titled("along the weld", "y"), &up);
+    if let Some(source) = weld.source_along() {
+        let at = axes.pixel([1e3 * source, y[1]]);
         let arrow = [at[0], at[1] - 4.0];
         canvas.arrow([at[0], at[1] - 34.0], arrow, INK, 4.0);
         let words = "arc, moving to the right";

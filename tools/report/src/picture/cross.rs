@@ -78,7 +78,7 @@ pub(crate) fn across(
     published: Published,
 ) -> Option<Canvas> {
     let (across, up) = (extent(section, true)?, extent(section, false)?);
-    let centre = 1e3 * weld.centre();
+    let centre = 1e3 * weld.middle();
     let measured = published.half_width.map_or(0.0, |half| 1e3 * half + 1.0);
     let half = (0.75 * 1e3 * bead.bead_width.max(bead.fused_width)).max(9.0);
     let half = half.max(measured);
@@ -117,8 +117,11 @@ pub(crate) fn across(
         v.canvas.dashes(a, b, MEASURED, 4.0);
     }
     gauges(&mut v.canvas, &v.axes, bead, centre);
-    v.axes
-        .draw(&mut v.canvas, "across the weld x [mm]", "height z [mm]");
+    v.axes.draw(
+        &mut v.canvas,
+        &weld.titled("across the weld", "x"),
+        &weld.height(),
+    );
     let below = v.axes.area.y + v.axes.area.h + 100.0;
     let mut names = vec![
         (PLATE, "plate"),
@@ -136,7 +139,7 @@ pub(crate) fn across(
 
 /// The section along the centre plane, coloured by temperature, with the fusion line.
 pub(crate) fn along(weld: &Weld, paint: &Paint) -> Option<Canvas> {
-    let section = Section::cut(&weld.metal(), Plane::Along, weld.centre());
+    let section = Section::cut(&weld.metal(), Plane::Along, weld.middle());
     let (all, up) = (extent(&section, true)?, extent(&section, false)?);
     let up = [up[0], up[1].min(CEILING)];
     let [from, to] = weld.window()?.map(|v| 1e3 * v);
@@ -168,8 +171,11 @@ pub(crate) fn along(weld: &Weld, paint: &Paint) -> Option<Canvas> {
         .segments(&mut v.canvas, &metal.contour(0.5), (INK, 2.0));
     v.axes
         .segments(&mut v.canvas, &inside(&metal, &fused), (FUSION, 5.0));
-    v.axes
-        .draw(&mut v.canvas, "along the weld y [mm]", "height z [mm]");
+    v.axes.draw(
+        &mut v.canvas,
+        &weld.titled("along the weld", "y"),
+        &weld.height(),
+    );
     if let Some(scale) = paint.scale() {
         bar_beside(&mut v.canvas, scale, v.axes.area);
     }

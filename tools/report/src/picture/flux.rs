@@ -8,6 +8,7 @@ use crate::draw::colour::{FROZEN, INK, PLATE, Rgb, hex};
 use crate::draw::discs::{Disc, draw};
 use crate::draw::letters::{Hand, Stand, write};
 use crate::flux::{Flux, POWDER, SLAG};
+use crate::weld::Weld;
 
 const POWDER_COLOUR: Rgb = hex(0xe8_c547);
 const SLAG_COLOUR: Rgb = hex(0xd6_2828);
@@ -65,10 +66,10 @@ impl Cut {
     }
 
     /// What stands to the right.
-    fn title(self) -> &'static str {
+    fn title(self, weld: &Weld) -> String {
         match self {
-            Self::Along => "along the weld y [mm]",
-            Self::Across(_) => "across x [mm]",
+            Self::Along => weld.titled("along the weld", "y"),
+            Self::Across(_) => weld.titled("across", "x"),
         }
     }
 }
@@ -94,7 +95,7 @@ pub(crate) fn section(flux: &Flux, cut: Cut, tells: &Tells) -> Option<Canvas> {
     if cut == Cut::Along {
         wire(&mut canvas, &axes, flux);
     }
-    axes.draw(&mut canvas, cut.title(), "height z [mm]");
+    axes.draw(&mut canvas, &cut.title(weld), &weld.height());
     let time = format!("{:.2} s", weld.time);
     write(
         &mut canvas,
@@ -112,7 +113,7 @@ pub(crate) fn section(flux: &Flux, cut: Cut, tells: &Tells) -> Option<Canvas> {
 /// Particles near the plane, as seen from before it.
 fn discs(flux: &Flux, cut: Cut, tells: &Tells) -> Vec<Disc> {
     let weld = &flux.weld;
-    let (centre, d) = (weld.centre(), weld.plate.spacing_m);
+    let (centre, d) = (weld.middle(), weld.plate.spacing_m);
     let at = |x: &[f64; 3]| cut.turn(*x, centre);
     let near = |x: &[f64; 3]| at(x)[2].abs() < 1e3 * THICK * d;
     let mut discs = Vec::new();
