@@ -23,7 +23,8 @@ a, b, c = s.effects(ways, [[y(p) for p in way] for _, way in ways])
 assert all(abs(x - 3) < 1e-9 for x in a[:2]) and a[2] < 1e-9, a
 exact = [2 * (w[k + 1][1] + w[k][1]) for o, w in ways for k, i in enumerate(o) if i == 1]
 assert abs(b[0] - sum(exact) / len(exact)) < 1e-9 and b[2] > 0.3, b
-assert c == (0.0, 0.0, 0.0), c
+assert c[:3] == (0.0, 0.0, 0.0) and c[3] == 40, c
+assert s.effects(ways[:1], [[y(p) for p in ways[0][1]]])[0][2:] == (None, 1)
 assert ways == s.trajectories(3, morris)
 lost = s.effects(ways[:1], [[None] * 4])
 assert lost == [None, None, None]
@@ -69,6 +70,23 @@ fn plans_that_are_wrong_are_refused_with_the_place() {
         ("\"base\": 0.4", "\"base\": 0.9", "/inputs/1/base"),
         ("\"figures\"", "\"figurs\"", "/figurs"),
         ("\"trajectories\": 3", "\"levels\": 3", "/morris/levels"),
+        (
+            "\"trajectories\": 3",
+            "\"trajectorys\": 3",
+            "did you mean 'trajectories'?",
+        ),
+        (
+            "\"trajectories\": 3",
+            "\"trajectories\": -3",
+            "/morris/trajectories",
+        ),
+        ("\"trajectories\": 3", "\"levels\": \"4\"", "/morris/levels"),
+        ("\"base\": 0.4", "\"base\": \"0.4\"", "/inputs/1/base"),
+        (
+            "\"to\": 330",
+            "\"to\": 330, \"units\": \"A\"",
+            "did you mean 'unit'?",
+        ),
     ] {
         std::fs::write(&plan, text.replace(old, new)).unwrap();
         let refused = Command::new(root.join("tools/sweep/sensitivity"))
