@@ -100,6 +100,38 @@ fn a_page_is_named_when_it_is_made_and_when_it_is_kept() {
 }
 
 #[test]
+fn what_is_up_to_date_says_again_what_its_run_warned_of() {
+    let folder = tempfile::tempdir().unwrap();
+    scene(folder.path(), "300 A");
+    let said = || {
+        let stage = "cp scene pool.mcap; exit 3";
+        let command = Command::new(script())
+            .current_dir(folder.path())
+            .args(["pool.mcap", "scene", "--", "sh", "-c", stage])
+            .output()
+            .unwrap();
+        assert!(command.status.success());
+        String::from_utf8(command.stderr).unwrap()
+    };
+    said();
+    let record = |warnings: &[&str]| {
+        let record =
+            serde_json::json!({"notes": ["a note"], "tool": "poolsph", "warnings": warnings});
+        let text = serde_json::to_string_pretty(&record).unwrap();
+        std::fs::write(folder.path().join("pool.run.json"), text).unwrap();
+    };
+    record(&["has not \"converged\"", "the plate is molten through"]);
+    let told = said();
+    assert_eq!(told.matches("warning: ").count(), 2, "{told}");
+    assert!(
+        told.contains("the plate is molten through") && !told.contains("a note"),
+        "{told}"
+    );
+    record(&[]);
+    assert_eq!(said(), "");
+}
+
+#[test]
 fn a_prerequisite_that_is_not_there_is_a_failure() {
     let folder = tempfile::tempdir().unwrap();
     let made = Command::new(script())
