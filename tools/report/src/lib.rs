@@ -21,6 +21,7 @@ mod html;
 mod index;
 mod measure;
 mod mirror;
+mod moments;
 mod page;
 mod picture;
 mod plot;

@@ -17,7 +17,8 @@ use crate::draw::axes::number;
 use crate::files::{CalculixFiles, print, save};
 use crate::heat::{POINTS, Points};
 use crate::mirror::Mirror;
-use crate::weld::{PARTICLES, Plate};
+use crate::moments;
+use crate::weld::{PARTICLES, Plate, Weld};
 
 /// Temperatures that change by less are not written again \[K\].
 const SAME: f64 = 1e-3;
@@ -82,9 +83,12 @@ impl Course {
         };
         let mirror = Mirror::read(reader)?;
         let mut last = 0.0;
-        for index in (0..reader.count(channel)).step_by(files.every as usize) {
+        for index in moments::every(reader.count(channel), files.every as usize) {
             let frame = reader.frame(channel, index)?;
             let (mut places, mut values) = (frame.position_vectors()?, frame.f64("temperature")?);
+            let body = body(reader, channel, index)?;
+            keep(&mut places, body.as_deref());
+            keep(&mut values, body.as_deref());
             if let Some(mirror) = mirror {
                 mirror.places(&mut places);
                 mirror.values(&mut values);
@@ -166,6 +170,27 @@ impl Course {
             );
         }
         told
+    }
+}
+
+/// Which points of a frame belong to the body: of a weld neither walls nor spatter nor drops on their way; all where nothing tells.
+fn body(reader: &Reader, channel: &str, index: usize) -> Result<Option<Vec<bool>>, Failure> {
+    let frame = reader.frame(channel, index)?;
+    if channel != PARTICLES || !frame.has("molten") {
+        return Ok(None);
+    }
+    let weld = Weld::read(reader, index)?;
+    let mut body = vec![false; frame.len()];
+    for (own, row) in weld.row.iter().enumerate() {
+        body[*row] |= weld.belongs(own);
+    }
+    Ok(Some(body))
+}
+
+fn keep<T>(all: &mut Vec<T>, body: Option<&[bool]>) {
+    if let Some(body) = body {
+        let mut of = body.iter();
+        all.retain(|_| of.next() == Some(&true));
     }
 }
 

@@ -5,6 +5,7 @@ use run::Failure;
 
 use crate::draw::canvas::Canvas;
 use crate::html::{FRAME_WIDTH, chosen, escape, figure, frames};
+use crate::moments;
 use crate::page::{encoding, moving};
 use crate::picture::drops::{Dot, Window, picture};
 
@@ -31,8 +32,10 @@ pub(super) fn film(name: &str, reader: &Reader) -> Result<Option<String>, Failur
     }
     let count = reader.count(GROUPS);
     let every = count.div_ceil(MOST).max(1);
-    let scenes = (0..count).step_by(every).map(|k| Scene::read(reader, k));
-    let scenes: Vec<Scene> = scenes.collect::<Result<_, _>>()?;
+    let shown = moments::every(count, every).into_iter();
+    let scenes: Vec<Scene> = shown
+        .map(|k| Scene::read(reader, k))
+        .collect::<Result<_, _>>()?;
     let widest = scenes.iter().map(|s| s.radius).fold(0.0, f64::max);
     let window = window(&scenes);
     let pictures: Vec<Canvas> = scenes

@@ -5,6 +5,7 @@ use ::run::Failure;
 use super::run::Run;
 use crate::draw::canvas::Canvas;
 use crate::html::{FRAME_WIDTH, chosen, escape, figure, frames};
+use crate::moments;
 use crate::page::{encoding, moving};
 use crate::picture::jet;
 
@@ -20,7 +21,7 @@ pub(super) fn section(runs: &[Run]) -> Result<String, Failure> {
             continue;
         }
         let every = count.div_ceil(MOST);
-        let shown: Vec<usize> = (0..count).step_by(every).collect();
+        let shown = moments::every(count, every);
         let pictures = shown
             .iter()
             .map(|index| one(run, *index))
