@@ -21,11 +21,8 @@ pub(super) fn section(reader: &Reader, scene: &Value) -> Result<Option<String>, 
     if count == 0 {
         return Ok(None);
     }
-    let shown = MOMENTS.min(count);
     let mut moments = Vec::new();
-    for k in 0..shown {
-        // The last one and as many before it at equal times; the start shows nothing yet.
-        let index = ((k + 1) as f64 * (count - 1) as f64 / shown as f64).round() as usize;
+    for index in shown(count) {
         moments.extend(Flux::read(reader, scene, index)?);
     }
     let mut body = String::new();
@@ -49,6 +46,15 @@ pub(super) fn section(reader: &Reader, scene: &Value) -> Result<Option<String>, 
         body += &behind(last)?;
     }
     Ok(Some(body + &melted(reader, scene, count)?))
+}
+
+/// The last frame and as many before it at equal times, each once; the start shows nothing yet.
+fn shown(count: usize) -> Vec<usize> {
+    let many = MOMENTS.min(count);
+    let index = |k: usize| (k + 1) as f64 * count.saturating_sub(1) as f64 / many as f64;
+    let mut all: Vec<usize> = (0..many).map(|k| index(k).round() as usize).collect();
+    all.dedup();
+    all
 }
 
 /// The section across the weld some way behind the arc, and how thick the slag lies there; nothing where there is none.
@@ -113,4 +119,17 @@ fn melted(reader: &Reader, scene: &Value, count: usize) -> Result<String, Failur
         &plot.html(),
         "How much is slag, has set again, and is liquid metal. Slag comes first: light strikes the wall of the cavity.",
     ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shown;
+
+    #[test]
+    fn no_moment_is_shown_twice() {
+        assert_eq!(shown(1), [0]);
+        assert_eq!(shown(2), [1]);
+        assert_eq!(shown(3), [1, 2]);
+        assert_eq!(shown(13), [2, 4, 6, 8, 10, 12]);
+    }
 }

@@ -1,5 +1,6 @@
 //! The page that compares two runs.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use run::Failure;
@@ -11,6 +12,9 @@ use crate::csv::{self, Csv};
 use crate::files::{PairFiles, save};
 use crate::html::{Page, Rows, escape, note, paragraph, percent};
 use crate::records::figure as digits;
+
+/// Hashes of what a stage has read, by name.
+type Inputs = BTreeMap<String, String>;
 
 /// Writes the page, and its table as CSV beside it.
 pub(crate) fn write(files: &PairFiles) -> Result<(), Failure> {
@@ -107,6 +111,7 @@ fn changes(members: &[Member; 2]) -> String {
                 words[0], words[1]
             ));
         }
+        out += &inputs(stage, &a.inputs, &b.inputs);
         let mut found = Vec::new();
         differences("", Some(&a.scene), Some(&b.scene), &mut found);
         for (key, a, b) in found {
@@ -118,6 +123,22 @@ fn changes(members: &[Member; 2]) -> String {
         out = paragraph("The scenes are the same.");
     }
     out
+}
+
+/// Inputs of a stage that are not the same file in both runs.
+fn inputs(stage: &str, a: &Inputs, b: &Inputs) -> String {
+    let names: BTreeSet<&String> = a.keys().chain(b.keys()).collect();
+    let other = names
+        .into_iter()
+        .filter(|name| a.get(*name) != b.get(*name));
+    let names: Vec<&str> = other.map(String::as_str).collect();
+    match names.is_empty() {
+        true => String::new(),
+        false => note(&format!(
+            "'{stage}' has read other files as {}.",
+            names.join(", ")
+        )),
+    }
 }
 
 /// A value of a scene in a few words; long ones by their beginning.
@@ -228,6 +249,14 @@ mod tests {
         let keys: Vec<&str> = found.iter().map(|(key, ..)| key.as_str()).collect();
         assert_eq!(keys, ["wire.diameter_m", "wire.feed", "gone", "new"]);
         assert_eq!(told(found[3].1), "\u{2013}");
+    }
+
+    #[test]
+    fn other_inputs_are_told() {
+        let of = |hash: &str| -> Inputs { [("arc".to_owned(), hash.to_owned())].into() };
+        assert!(inputs("pool", &of("a"), &of("b")).contains("has read other files as arc"));
+        assert!(inputs("pool", &of("a"), &Inputs::new()).contains("arc"));
+        assert_eq!(inputs("pool", &of("a"), &of("a")), "");
     }
 
     #[test]

@@ -65,7 +65,10 @@ pub(in crate::page) fn section(members: &[Member], stage: &str) -> Result<String
 
 /// Adds a curve to the family of its quantity.
 fn add(families: &mut Vec<Family>, like: Family) {
-    let same = |f: &&mut Family| (&f.channel, &f.name) == (&like.channel, &like.name);
+    let same = |f: &&mut Family| {
+        (&f.channel, &f.name, &f.unit, &f.over)
+            == (&like.channel, &like.name, &like.unit, &like.over)
+    };
     match families.iter_mut().find(same) {
         Some(family) => family.curves.extend(like.curves),
         None => families.push(like),
@@ -111,13 +114,26 @@ fn drawn(family: &Family) -> String {
     figure(&plot.html(), &format!("{words} over {over}."))
 }
 
+/// No more points than are seen, with every peak: of each block of neighbours the first, the least and the greatest in their order.
 fn thinned(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    let step = points.len().div_ceil(MOST).max(1);
-    let last = points.len().saturating_sub(1);
-    let kept = points.into_iter().enumerate();
-    kept.filter(|(i, _)| i % step == 0 || *i == last)
-        .map(|(_, p)| p)
-        .collect()
+    if points.len() <= MOST {
+        return points;
+    }
+    let last = points.len() - 1;
+    let mut kept = Vec::new();
+    for (block, own) in points.chunks(points.len().div_ceil(MOST / 3)).enumerate() {
+        let by = |a: &&[f64; 2], b: &&[f64; 2]| a[1].total_cmp(&b[1]);
+        let place = |found: Option<&[f64; 2]>| own.iter().position(|p| Some(p) == found);
+        let mut places = vec![0];
+        places.extend(place(own.iter().min_by(by)));
+        places.extend(place(own.iter().max_by(by)));
+        let end = block * points.len().div_ceil(MOST / 3) + own.len() - 1;
+        places.extend((end == last).then_some(own.len() - 1));
+        places.sort_unstable();
+        places.dedup();
+        kept.extend(places.into_iter().map(|k| own[k]));
+    }
+    kept
 }
 
 /// Measures of the bead along the weld.
@@ -210,5 +226,28 @@ fn end(stage: &Stage, table: &Table, over: &[f64]) -> f64 {
     match stage.is("arc-source") {
         true => reach(table, over),
         false => f64::INFINITY,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thinned_curve_keeps_its_peaks_and_its_ends() {
+        // Pulses of one record each.
+        let pulse = |k: i32| f64::from(u8::from(k % 97 == 50)) * f64::from(k);
+        let points: Vec<[f64; 2]> = (0..5000).map(|k| [f64::from(k), pulse(k)]).collect();
+        let kept = thinned(points.clone());
+        assert!(kept.len() <= MOST + 1, "{}", kept.len());
+        assert!(
+            points
+                .iter()
+                .filter(|p| p[1] > 4000.0)
+                .all(|p| kept.contains(p))
+        );
+        assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[4999]));
+        assert!(kept.windows(2).all(|w| w[1][0] > w[0][0]));
+        assert_eq!(thinned(points[..300].to_vec()).len(), 300);
     }
 }

@@ -27,9 +27,10 @@ pub(in crate::page) struct Number {
 }
 
 impl Number {
-    /// Whether it is the same quantity of another run.
+    /// Whether it is the same quantity of another run, in the same unit.
     fn is(&self, other: &Self) -> bool {
-        (&self.stage, &self.channel, &self.name) == (&other.stage, &other.channel, &other.name)
+        (&self.stage, &self.channel) == (&other.stage, &other.channel)
+            && (&self.name, &self.unit) == (&other.name, &other.unit)
     }
 
     /// What it is, in words, without its unit.
@@ -123,4 +124,28 @@ pub(in crate::page) fn shown(value: Option<f64>) -> String {
 /// A unit for people.
 pub(in crate::page) fn unit(unit: &str) -> &str {
     if unit == "1" { "" } else { unit }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_in_two_units_do_not_stand_beside_each_other() {
+        let number = |unit: &str, value: f64| Number {
+            stage: "block".to_owned(),
+            channel: "/balance".to_owned(),
+            name: "power".to_owned(),
+            unit: unit.to_owned(),
+            value,
+        };
+        let rows = beside(&[vec![number("W", 3.0)], vec![number("W/m", 4.0)]]);
+        assert_eq!(rows.len(), 2);
+        assert_eq!(
+            (&rows[0].1, &rows[1].1),
+            (&vec![Some(3.0), None], &vec![None, Some(4.0)])
+        );
+        let rows = beside(&[vec![number("W", 3.0)], vec![number("W", 4.0)]]);
+        assert_eq!(rows[0].1, [Some(3.0), Some(4.0)]);
+    }
 }
