@@ -134,12 +134,13 @@ fn outlines(runs: &[Run]) -> Result<String, Failure> {
     for run in runs.iter().filter(|r| r.reader.has("/outline")) {
         let table = run.reader.table("/outline")?;
         let (r, z) = (table.values("r_m")?, table.values("z_m")?);
-        let upper = r.iter().zip(z).map(|(r, z)| [*r, *z]);
-        let lower = r.iter().zip(z).rev().map(|(r, z)| [*r, -z]);
-        plot.add(Line::new(
-            &run.name,
-            upper.rev().chain(lower.rev()).collect(),
-        ));
+        let outline: Vec<[f64; 2]> = r.iter().zip(z).map(|(r, z)| [*r, *z]).collect();
+        let on_wall = run
+            .reader
+            .header()
+            .scene
+            .pointer("/liquid/equilibrium/contact_angle_deg");
+        plot.add(Line::new(&run.name, completed(&outline, on_wall.is_some())));
     }
     if plot.is_empty() {
         return Ok(String::new());
@@ -148,6 +149,16 @@ fn outlines(runs: &[Run]) -> Result<String, Failure> {
         &plot.html(),
         "Outlines of drops at rest, from the axis.",
     ))
+}
+
+/// The outline of a drop from its upper half; one on a wall, or one that goes below its middle, is whole as it is.
+fn completed(outline: &[[f64; 2]], on_wall: bool) -> Vec<[f64; 2]> {
+    let size = outline.iter().map(|p| p[1].abs()).fold(0.0, f64::max);
+    let upper = outline.iter().rev().copied();
+    if on_wall || outline.iter().any(|p| p[1] < -1e-9 * size) {
+        return upper.collect();
+    }
+    upper.chain(outline.iter().map(|[r, z]| [*r, -z])).collect()
 }
 
 /// Moving pictures of the section along x and z.
@@ -246,4 +257,19 @@ fn moving(frames: &[Vec<f64>], mean: f64, enlarged: f64) -> String {
         all[0],
         all.join(";")
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::completed;
+
+    #[test]
+    fn a_drop_on_a_wall_is_no_lens() {
+        let half = [[1.0, 0.0], [0.7, 0.7], [0.0, 1.0]];
+        assert_eq!(completed(&half, true), [[0.0, 1.0], [0.7, 0.7], [1.0, 0.0]]);
+        let free = completed(&half, false);
+        assert_eq!((free.len(), free[5]), (6, [0.0, -1.0]));
+        let whole = [[0.0, -1.0], [1.0, 0.0], [0.0, 1.0]];
+        assert_eq!(completed(&whole, false).len(), 3);
+    }
 }

@@ -96,9 +96,10 @@ fn short(value: f64, unit: &str) -> String {
 
 /// What the ways of finding the force differ by.
 fn spread(record: &Record) -> String {
-    let Ok(spread) = record.get("force_spread") else {
+    let Some(entry) = record.values.iter().find(|e| e.name == "force_spread") else {
         return String::new();
     };
+    let (spread, unit) = (entry.value, entry.unit.as_str());
     let along = |name: &str| {
         let parts = ["x", "y", "z"].map(|k| record.get(&format!("{name}_{k}")).unwrap_or(0.0));
         parts.iter().map(|v| v * v).sum::<f64>().sqrt()
@@ -107,7 +108,7 @@ fn spread(record: &Record) -> String {
     let most = most.into_iter().fold(0.0, f64::max);
     let mut text = format!(
         "Three ways of finding the force differ by {} at most",
-        short(spread, "N")
+        short(spread, unit)
     );
     if most > 0.0 {
         text += &format!(", {:.2} % of it", 100.0 * spread / most);
@@ -192,10 +193,11 @@ fn bodies(record: &Record) -> Vec<(String, String)> {
         let Some(rest) = entry.name.strip_prefix(ELECTRIC) else {
             continue;
         };
-        let body = rest
-            .trim_end_matches("_x")
-            .trim_end_matches("_y")
-            .trim_end_matches("_z");
+        let axes = ["_x", "_y", "_z"].iter();
+        let body = axes
+            .filter_map(|axis| rest.strip_suffix(axis))
+            .next()
+            .unwrap_or(rest);
         let name = format!("{ELECTRIC}{body}");
         if !found.iter().any(|(n, _)| *n == name) {
             found.push((
@@ -253,6 +255,29 @@ mod tests {
         let found = bodies(&record);
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].0, "electric_force_left drop");
+    }
+
+    #[test]
+    fn a_body_may_be_called_as_an_axis_is() {
+        let record = Record::new()
+            .with("electric_force_coil_x_x", "N", 1.0)
+            .with("electric_force_coil_x_z", "N", 1.0);
+        let found = bodies(&record);
+        assert_eq!(
+            (found.len(), found[0].0.as_str()),
+            (1, "electric_force_coil_x")
+        );
+    }
+
+    #[test]
+    fn the_spread_of_forces_has_its_own_unit() {
+        let record = |unit: &str| {
+            Record::new()
+                .with("force_spread", unit, 2.0)
+                .with("force_volume_x", unit, 4.0)
+        };
+        assert!(spread(&record("N/m")).contains("N/m at most"));
+        assert!(spread(&record("N")).contains("N at most"));
     }
 
     #[test]

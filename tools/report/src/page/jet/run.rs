@@ -89,9 +89,20 @@ impl Run {
         }
     }
 
-    /// Time \[s\] and particles of a frame, in space those of a slice through the middle.
+    /// y of the slice that is shown in space \[mm\]: through the first nozzle, without any y = 0.
+    fn middle(&self) -> f64 {
+        let exit = self
+            .reader
+            .header()
+            .scene
+            .pointer("/water/nozzles/0/exit_m/1");
+        exit.and_then(Value::as_f64).map_or(0.0, |y| 1e3 * y)
+    }
+
+    /// Time \[s\] and particles of a frame, in space those of a slice through the first nozzle.
     pub(super) fn dots(&self, index: usize) -> Result<(f64, Vec<Dot>), Failure> {
         let (mut time, mut dots) = (0.0, Vec::new());
+        let middle = self.middle();
         for (channel, radius) in &self.bodies {
             let Some(frame) = self.frame(channel, index)? else {
                 continue;
@@ -103,7 +114,7 @@ impl Run {
                 Vec::new()
             };
             for (a, x) in frame.position_vectors()?.iter().enumerate() {
-                if !self.plane && (1e3 * x[1]).abs() > 1.2 * radius {
+                if !self.plane && (1e3 * x[1] - middle).abs() > 1.2 * radius {
                     continue;
                 }
                 let what = match (channel.as_str(), broken.get(a)) {
@@ -150,7 +161,7 @@ impl Run {
         let place = if self.plane {
             [at[0], at[1], 0.0]
         } else {
-            [at[0], 0.0, at[1]]
+            [at[0], self.middle(), at[1]]
         };
         let walls = self.reader.header().scene["walls"].as_array();
         walls.into_iter().flatten().any(|wall| {
