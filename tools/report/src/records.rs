@@ -48,6 +48,14 @@ fn finite_or_not<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::<f64>::deserialize(from)?.unwrap_or(f64::INFINITY))
 }
 
+fn totals<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<Total>, D::Error> {
+    let mut totals = Vec::<Total>::deserialize(from)?;
+    for total in totals.iter_mut().filter(|total| total.value.is_infinite()) {
+        total.value = f64::NAN;
+    }
+    Ok(totals)
+}
+
 /// A quantity over steps, sweeps or time.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default)]
@@ -77,6 +85,8 @@ pub(crate) struct RunRecord {
     pub(crate) notes: Vec<String>,
     pub(crate) left_out: Vec<LeftOut>,
     pub(crate) limits: Vec<Total>,
+    /// A total that is not finite is null in JSON: it is no number, as nothing limits it.
+    #[serde(deserialize_with = "totals")]
     pub(crate) closing: Vec<Total>,
     pub(crate) history: Vec<History>,
     pub(crate) scene: Value,
@@ -176,6 +186,16 @@ mod tests {
             serde_json::from_str(r#"{"name": "step", "value": null, "unit": "s"}"#).unwrap();
         assert_eq!(figure(total.value), "unbounded");
         assert_eq!(figure(f64::NAN), "not a number");
+    }
+
+    #[test]
+    fn a_closing_total_that_is_no_number_is_no_limit() {
+        let text = r#"{"limits": [{"name": "dt", "value": null, "unit": "s"}],
+            "closing": [{"name": "error", "value": null, "unit": "1"}, {"name": "mass", "value": 2.0, "unit": "kg"}]}"#;
+        let record: RunRecord = serde_json::from_str(text).unwrap();
+        assert_eq!(figure(record.limits[0].value), "unbounded");
+        assert_eq!(figure(record.closing[0].value), "not a number");
+        assert_eq!(figure(record.closing[1].value), "2.000");
     }
 
     #[test]
