@@ -5,6 +5,7 @@
 //! while nothing of the weld has frozen, its measures are shown but nothing is judged.
 
 mod check;
+mod people;
 mod published;
 
 use std::path::Path;
@@ -14,6 +15,7 @@ use run::Failure;
 use run::scene::{Merged, located};
 use serde::Deserialize;
 
+use self::people::people;
 use crate::certified::Bands;
 use crate::weld::Stretch;
 
@@ -276,21 +278,6 @@ impl Row {
             ),
             Verdict::Unknown => ("could not be measured".to_owned(), None),
         }
-    }
-}
-
-/// Factor, unit and digits for people: wires and plates move by the minute, gas by the second.
-fn people(target: &Target) -> (f64, &str, usize) {
-    match target.unit.as_str() {
-        "m" => (1e3, "mm", 1),
-        "m2" => (1e6, "mm\u{b2}", 1),
-        "m/s" if target.value.abs() < 1.0 => (60.0, "m/min", 2),
-        "m/s" => (1.0, "m/s", 0),
-        "W" => (1.0, "W", 0),
-        "V" => (1.0, "V", 1),
-        "deg" => (1.0, "\u{b0}", 1),
-        "1" => (1.0, "", 2),
-        other => (1.0, other, 2),
     }
 }
 
