@@ -97,6 +97,21 @@ impl Certificate {
         bands
     }
 
+    /// Whether it has a band for a measure of a bead, or for NAME/figure of the stage NAME.
+    pub(crate) fn tells(&self, measure: &str) -> bool {
+        let (stage, figure) = match measure.split_once('/') {
+            Some((stage, figure)) => (Some(stage), figure),
+            None => (None, measure),
+        };
+        let told = self.figures.get(figure);
+        told.is_some_and(|told| told.half_width.is_some() && stage.is_none_or(|s| s == told.stage))
+    }
+
+    /// The study that it belongs to.
+    pub(crate) fn study(&self) -> &str {
+        &self.study
+    }
+
     /// The hash of the scene of a stage, as the study has it.
     fn hash(&self, stage: &str) -> Option<&String> {
         let base = self.points.iter().find(|p| p.knob.is_none())?;

@@ -7,11 +7,11 @@ use artefact::Reader;
 use run::Failure;
 
 use crate::certified::{Certificate, Ran};
-use crate::files::print;
+use crate::files::{print, warn};
 use crate::targets::{Row, Targets, Verdict, compare, with_bands};
 use crate::weld::Weld;
 
-/// Prints each row; the exit code is 1 where a tolerance is missed or cannot be judged.
+/// Prints each row; the exit code is 1 where a tolerance is missed or cannot be judged, 3 where nothing is judged or bands are missing.
 pub(crate) fn run(
     pool: Option<&Path>,
     arcs: &[(String, PathBuf)],
@@ -33,10 +33,12 @@ pub(crate) fn run(
         ran.push((name.clone(), reader.header().scene_sha256()));
         balances.push((name.clone(), reader.record("/balance")?));
     }
+    let place = targets;
     let targets = Targets::read(targets, &balances)?;
     let mut rows = compare(&targets, stretch.as_ref(), &balances);
-    if let Some(path) = certificate {
-        with_bands(&mut rows, &Certificate::read(path)?.bands(&ran));
+    let certificate = certificate.map(Certificate::read).transpose()?;
+    if let Some(certificate) = &certificate {
+        with_bands(&mut rows, &certificate.bands(&ran));
     }
     let text = table(&rows);
     print(&text)?;
@@ -44,11 +46,38 @@ pub(crate) fn run(
         let judged = row.target.tolerance.is_some();
         judged && row.verdict != Verdict::Holds
     };
-    Ok(if rows.iter().any(failed) {
-        ExitCode::from(1)
-    } else {
-        ExitCode::SUCCESS
+    let doubts = doubts(&rows, certificate.as_ref());
+    for doubt in &doubts {
+        warn(place, doubt)?;
+    }
+    Ok(match (rows.iter().any(failed), doubts.is_empty()) {
+        (true, _) => ExitCode::from(1),
+        (false, true) => ExitCode::SUCCESS,
+        (false, false) => ExitCode::from(3),
     })
+}
+
+/// What verdicts are worth less for: no band where the study has one, or that there are none.
+fn doubts(rows: &[Row], certificate: Option<&Certificate>) -> Vec<String> {
+    let mut doubts = Vec::new();
+    let judged = || rows.iter().filter(|row| row.target.tolerance.is_some());
+    if judged().count() == 0 {
+        doubts.push("nothing is judged: no target has a tolerance".to_owned());
+    }
+    if let Some(certificate) = certificate {
+        let bare =
+            judged().filter(|row| row.band.is_none() && certificate.tells(&row.target.measure));
+        let names: Vec<&str> = bare.map(|row| row.target.measure.as_str()).collect();
+        if !names.is_empty() {
+            doubts.push(format!(
+                "verdicts without their numerical bands, which were found with other scenes: {}. \
+                 `make certify STUDY={}` finds them anew",
+                names.join(", "),
+                certificate.study()
+            ));
+        }
+    }
+    doubts
 }
 
 /// The rows for people, in columns of fixed width.
