@@ -22,13 +22,18 @@ const NONE: f64 = 1e-9;
 
 /// The greatest relative change of each column from `base` to `other` at the temperatures of both; columns that do not
 /// change are left out.
-pub(crate) fn changes(base: &Gas, other: &Gas) -> Vec<Change> {
+///
+/// `None` where nothing could be compared: no temperature, iron fraction or column is in both.
+pub(crate) fn changes(base: &Gas, other: &Gas) -> Option<Vec<Change>> {
     let columns = base.table.columns.iter();
-    columns
+    let compared: Vec<Change> = columns
         .filter_map(|column| change(base, other, &column.name))
-        .collect()
+        .collect();
+    let changed = |change: &Change| change.worst.abs() > NONE;
+    (!compared.is_empty()).then(|| compared.into_iter().filter(changed).collect())
 }
 
+/// The greatest relative change of a column, 0 where it does not change; none where nothing of it is in both.
 fn change(base: &Gas, other: &Gas, name: &str) -> Option<Change> {
     let values = base.table.values(name).ok()?;
     let least = SMALL * values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
@@ -38,23 +43,25 @@ fn change(base: &Gas, other: &Gas, name: &str) -> Option<Change> {
         temperature: 0.0,
         iron: 0.0,
     };
+    let mut compared = false;
     for (x, iron) in base.iron.iter().enumerate() {
-        let there = other
-            .iron
-            .iter()
-            .position(|other| (other - iron).abs() < 1e-12)?;
+        let same = |other: &f64| (other - iron).abs() < 1e-12;
+        let Some(there) = other.iron.iter().position(same) else {
+            continue;
+        };
         for t in &base.temperatures {
             let Some(after) = shared(other, *t).and_then(|t| other.at(name, there, t)) else {
                 continue;
             };
             let before = base.at(name, x, *t)?;
+            compared = true;
             let part = (after - before) / before;
             if before.abs() >= least && part.abs() > found.worst.abs() {
                 (found.worst, found.temperature, found.iron) = (part, *t, *iron);
             }
         }
     }
-    (found.worst.abs() > NONE).then_some(found)
+    compared.then_some(found)
 }
 
 /// `other` over `base` against temperature, at a place of iron, where `base` is not small.
@@ -98,11 +105,14 @@ mod tests {
             };
             factor * (100.0 + t + x)
         });
-        let all = changes(&base, &other);
+        let all = changes(&base, &other).unwrap();
         assert_eq!(all.len(), 1);
         assert!((all[0].worst + 0.2).abs() < 1e-12);
         assert!((all[0].temperature - 5000.0).abs() < 1e-9 && (all[0].iron - 0.1).abs() < 1e-12);
-        assert!(changes(&base, &base).is_empty());
+        assert!(changes(&base, &base).unwrap().is_empty());
+        let elsewhere = gas("v", &[0.5], |t, x| 100.0 + t + x);
+        assert_eq!(changes(&base, &elsewhere), None);
+        assert_eq!(changes(&base, &gas("w", &[0.0, 0.1], |t, _| t)), None);
         let line = ratio(&base, &other, "v", 1);
         assert!(
             line.iter()

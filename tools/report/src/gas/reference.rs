@@ -102,6 +102,16 @@ impl Published {
         self.columns.iter().filter(|c| c.name != "temperature_k")
     }
 
+    /// Whether a table of `gas` has the column, and reaches as far as the published rows between two temperatures.
+    pub(crate) fn is_met(&self, gas: &Gas, name: &str, [from, to]: [f64; 2]) -> bool {
+        let rows = self.rows(name).into_iter();
+        let mut own = rows
+            .map(|[t, _]| t)
+            .filter(|t| (from..=to).contains(t))
+            .peekable();
+        own.peek().is_some() && own.all(|t| gas.at(name, 0, t).is_some())
+    }
+
     /// How far `gas` without iron is from a column between two temperatures; nothing where they do not meet.
     pub(crate) fn deviation(
         &self,
@@ -119,7 +129,9 @@ impl Published {
             let Some(ours) = gas.at(name, 0, t).filter(|_| (from..=to).contains(&t)) else {
                 continue;
             };
-            let off = ours / published - 1.0;
+            // Where 0 is published, nothing but 0 agrees.
+            let same = ours.abs() <= 0.0 && published.abs() <= 0.0;
+            let off = if same { 0.0 } else { ours / published - 1.0 };
             if off.abs() > found.worst.abs() {
                 (found.worst, found.at) = (off, t);
             }
@@ -180,6 +192,23 @@ mod tests {
         assert!((warm.worst - 0.05).abs() < 1e-12);
         assert_eq!(table.deviation(&ours, "v", [1e5, 2e5]), None);
         assert_eq!(table.deviation(&ours, "absent", [0.0, 1e5]), None);
+    }
+
+    #[test]
+    fn a_range_that_is_met_in_part_is_not_met_and_a_published_zero_is_not_passed_over() {
+        let ours = gas("v", &[0.0, 1.0], |t, _| t);
+        let table = published(&[1500.0, 2500.0, 3500.0]);
+        assert!(table.is_met(&ours, "v", [0.0, 1e5]));
+        assert!(
+            !table.is_met(&ours, "misspelt", [0.0, 1e5]) && !table.is_met(&ours, "v", [1e5, 2e5])
+        );
+        let mut longer = table.clone();
+        longer.columns[0].values.push(1e9);
+        longer.columns[1].values.push(1e9);
+        assert!(!longer.is_met(&ours, "v", [0.0, 2e9]));
+        let zero = published(&[1500.0, 0.0, 3500.0]);
+        let found = zero.deviation(&ours, "v", [0.0, 1e5]).unwrap();
+        assert!(found.worst.is_infinite() && found.mean.is_infinite());
     }
 
     #[test]

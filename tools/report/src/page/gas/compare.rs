@@ -35,6 +35,16 @@ fn values(gas: &Gas, reference: &Reference) -> String {
     ]);
     for value in &reference.values {
         let Some((ours, at)) = value.of(gas) else {
+            let none = || "\u{2013}".to_owned();
+            rows.row([
+                escape(&words(&value.column)),
+                none(),
+                digits(value.value),
+                none(),
+                format!("{:.0} %", 100.0 * value.tolerance),
+                verdict("not judged: not in the table", None),
+                escape(&value.source),
+            ]);
             continue;
         };
         let off = ours / value.value - 1.0;
@@ -84,24 +94,29 @@ fn bounds(gas: &Gas, published: &Published) -> String {
     ]);
     for bound in &published.bounds {
         let range = [bound.from_k, bound.to_k];
-        let Some(found) = published.deviation(gas, &bound.column, range) else {
-            continue;
+        let none = || "\u{2013}".to_owned();
+        let found = published.deviation(gas, &bound.column, range);
+        let holds = found.is_some_and(|found| {
+            found.worst.abs() <= bound.worst && bound.mean.is_none_or(|mean| found.mean <= mean)
+        });
+        let word = match published.is_met(gas, &bound.column, range) {
+            true => judged(holds),
+            false if found.is_some() && !holds => judged(holds),
+            false => verdict("not judged: the table does not reach as far", None),
         };
-        let holds =
-            found.worst.abs() <= bound.worst && bound.mean.is_none_or(|mean| found.mean <= mean);
         rows.row([
             escape(&words(&bound.column)),
             digits(bound.from_k),
             digits(bound.to_k),
-            percent(found.worst),
-            format!("{:.0}", found.at),
+            found.map_or_else(none, |found| percent(found.worst)),
+            found.map_or_else(none, |found| format!("{:.0}", found.at)),
             format!("{:.0} %", 100.0 * bound.worst),
-            format!("{:.2} %", 100.0 * found.mean),
+            found.map_or_else(none, |found| format!("{:.2} %", 100.0 * found.mean)),
             bound.mean.map_or_else(
                 || "\u{2013}".to_owned(),
                 |mean| format!("{:.0} %", 100.0 * mean),
             ),
-            judged(holds),
+            word,
         ]);
     }
     rows.render()

@@ -23,7 +23,11 @@ pub(super) fn section(variants: &[(&Table, Table)]) -> String {
         "#x(Fe)",
     ]);
     for (base, variant) in variants {
-        let mut all = changes(&base.gas, &variant.gas);
+        let Some(mut all) = changes(&base.gas, &variant.gas) else {
+            let told = "not comparable: no temperature and iron fraction is in both".to_owned();
+            rows.row([escape(&base.name), escape(&variant.name), told]);
+            continue;
+        };
         all.sort_by(|a, b| b.worst.abs().total_cmp(&a.worst.abs()));
         for change in &all {
             rows.row([
@@ -50,7 +54,7 @@ pub(super) fn section(variants: &[(&Table, Table)]) -> String {
 
 /// The column that changes most, over that of the gas it varies.
 fn plot(base: &Table, variant: &Table) -> Option<String> {
-    let all = changes(&base.gas, &variant.gas);
+    let all = changes(&base.gas, &variant.gas)?;
     let most = all
         .iter()
         .max_by(|a, b| a.worst.abs().total_cmp(&b.worst.abs()))?;
