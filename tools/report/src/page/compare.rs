@@ -62,12 +62,12 @@ fn summary(rows: &[Row]) -> String {
         count(Verdict::Missed),
         count(Verdict::NotYet),
     );
-    if early > 0 {
-        return "The published bead is finished and cold; nothing of this weld has frozen beyond its run-in. Its \
+    let unknown = |r: &&Row| r.verdict == Verdict::Unknown && r.target.tolerance.is_some();
+    let unknown = rows.iter().filter(unknown).count();
+    let mut text = match (held, missed) {
+        (0, 0) if early > 0 => "The published bead is finished and cold; nothing of this weld has frozen beyond its run-in. Its \
                 values so far stand beside the published ones, and nothing is judged."
-            .to_owned();
-    }
-    match (held, missed) {
+            .to_owned(),
         (0, 0) => {
             "Nothing here is judged; the values stand beside each other for comparison.".to_owned()
         }
@@ -82,5 +82,47 @@ fn summary(rows: &[Row]) -> String {
              and {missed} do not.",
             held + missed
         ),
+    };
+    if early > 0 && held + missed > 0 {
+        text += &format!(
+            " {early} of the bead are not judged: nothing of this weld has frozen beyond its run-in."
+        );
+    }
+    if unknown > 0 {
+        text += &format!(" {unknown} with a tolerance could not be measured.");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    fn row(verdict: Verdict) -> Row {
+        let told = json!({"measure": "a", "title": "a", "value": 1.0, "unit": "1", "source": "a", "kind": "experiment",
+            "tolerance": 0.1});
+        Row {
+            target: serde_json::from_value(told).unwrap(),
+            measured: None,
+            range: None,
+            verdict,
+            band: None,
+        }
+    }
+
+    #[test]
+    fn every_kind_of_verdict_is_counted() {
+        let of = |all: &[Verdict]| summary(&all.iter().map(|v| row(*v)).collect::<Vec<_>>());
+        use Verdict::{Holds, NotYet, Unknown};
+        let told = of(&[Holds, Holds, NotYet, Unknown]);
+        assert!(told.starts_with("All 2 measures"), "{told}");
+        assert!(
+            told.contains("1 of the bead are not judged")
+                && told.contains("1 with a tolerance could not")
+        );
+        assert!(of(&[NotYet]).ends_with("nothing is judged."));
+        assert!(!of(&[Holds]).contains("not be measured"));
     }
 }

@@ -31,7 +31,8 @@ pub(super) fn summary(studies: &[Study]) -> String {
         let worst = finest
             .errors
             .iter()
-            .filter_map(|(name, error)| Some((name, (*error)?)))
+            // An error that is no number is null in JSON, and the greatest of all.
+            .map(|(name, error)| (name, error.unwrap_or(f64::NAN)))
             .max_by(|a, b| a.1.total_cmp(&b.1));
         let (error, order) = worst.map_or_else(
             || ("\u{2013}".to_owned(), "\u{2013}".to_owned()),

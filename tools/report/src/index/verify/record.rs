@@ -102,6 +102,9 @@ impl Study {
         if holds(Some(false)) || (self.targets.is_empty() && !self.holds) {
             return ("targets missed".to_owned(), Some(false));
         }
+        if self.targets.is_empty() {
+            return ("has no targets".to_owned(), None);
+        }
         if !holds(None) {
             return ("targets met".to_owned(), Some(true));
         }
