@@ -69,8 +69,8 @@ fn series(records: &[(f64, Record)]) -> String {
     push(
         &mut figures,
         &mass,
-        "How much metal there is more than at the start. It comes from the droplets and from \
-          nothing else: the two lines must be one.",
+        "How much metal there is more than at the start. Where it comes from the droplets alone, and none \
+          leaves the plate, the two lines are one.",
     );
     let mut liquid = Plot::new("time [s]", "liquid particles").through(0.0);
     liquid.add(line("liquid_particles", "", 1.0));
