@@ -220,6 +220,51 @@ fn validation_ends_with_one_where_a_tolerance_is_missed() {
 }
 
 #[test]
+fn verdicts_that_lost_their_bands_and_targets_that_judge_nothing_are_told() {
+    let folder = folder("bands");
+    let at = |name: &str| folder.join(name).display().to_string();
+    sample::weld(&folder.join("pool.mcap"), 8.0, 2, true);
+    sample::targets(&folder.join("targets.json"), sample::DEEP);
+    let pool = artefact::Reader::open(folder.join("pool.mcap")).unwrap();
+    let own = pool.header().scene_sha256();
+    let validate = |targets: &str, hash: &str| {
+        let certificate = serde_json::json!({"kind": "certificate", "version": "1.0", "study": "s", "least": null,
+            "figures": {"penetration": {"stage": "pool", "unit": "m", "value": 2.9e-3, "extrapolated": 2.9e-3,
+                "half_width": 1e-5, "scatter": null, "knobs": {}, "not_judged": []}},
+            "points": [{"name": "base", "knob": null, "size": null, "patch": null, "figures": {}, "run_time_s": 1.0,
+                "peak_memory_bytes": null, "points": null, "missing": null, "scenes": {"pool": hash}}]});
+        std::fs::write(folder.join("certificate.json"), certificate.to_string()).unwrap();
+        let (pool, targets, certificate) = (at("pool.mcap"), at(targets), at("certificate.json"));
+        let words = [
+            "validate",
+            "--pool",
+            &pool,
+            "--targets",
+            &targets,
+            "--certificate",
+            &certificate,
+        ];
+        let output = report(&words);
+        (
+            output.status.code(),
+            String::from_utf8_lossy(&output.stderr).into_owned(),
+        )
+    };
+    assert_eq!(validate("targets.json", &own), (Some(0), String::new()));
+    let (code, said) = validate("targets.json", &"0".repeat(64));
+    assert_eq!(code, Some(3), "{said}");
+    assert!(
+        said.contains("other scenes: penetration") && said.contains("STUDY=s"),
+        "{said}"
+    );
+    let none = "{\"kind\": \"targets\", \"version\": \"1.0\", \"targets\": []}";
+    std::fs::write(folder.join("none.json"), none).unwrap();
+    let (code, said) = validate("none.json", &own);
+    assert_eq!(code, Some(3), "{said}");
+    assert!(said.contains("nothing is judged"), "{said}");
+}
+
+#[test]
 fn targets_that_cannot_be_meant_are_refused_with_their_places() {
     let folder = folder("targets");
     let arc = folder.join("arc.mcap");

@@ -32,7 +32,8 @@ pub(crate) fn write(files: &PairFiles) -> Result<(), Failure> {
     ));
     let mut page = Page::new(&format!("{} and {}", names[0], names[1]), &lead);
     page.section("What was changed", changes(&members));
-    page.section("The numbers", table(&names, &all));
+    let numbers = beside::unlike(&members) + &table(&names, &all);
+    page.section("The numbers", numbers);
     for stage in beside::stages(&members) {
         let body = pictures::section(&members, stage)?;
         page.section(&format!("Pictures: {stage}"), body);

@@ -219,15 +219,23 @@ fn pool(pools: &[(String, Reader)]) -> Result<String, Failure> {
         let value = |k: usize| power(&series.get(k)?.1, &name);
         row(&mut table, &words, "kW", pools.len(), &value);
     }
-    let frozen = stretches.iter().flatten().any(|s| s.frozen);
-    let told = match frozen {
-        true => "Measures are medians of the frozen stretch.",
-        false => {
+    let frozen: Vec<bool> = stretches.iter().flatten().map(|s| s.frozen).collect();
+    Ok(paragraph(measured(&frozen)) + &liquid(&series) + &table.render())
+}
+
+/// What the measures of beads are, by whether each has frozen.
+fn measured(frozen: &[bool]) -> &'static str {
+    match (frozen.contains(&true), frozen.contains(&false)) {
+        (true, false) => "Measures are medians of the frozen stretch.",
+        (true, true) => {
+            "Measures of welds that have frozen are medians of the frozen stretch; of the others they are the greatest ones \
+             so far, and not to be compared with medians."
+        }
+        (false, _) => {
             "Nothing of these welds has frozen beyond its run-in: the measures are the greatest ones so far. \
                   Powers are those of the second half of the time."
         }
-    };
-    Ok(paragraph(told) + &liquid(&series) + &table.render())
+    }
 }
 
 fn row(
@@ -289,6 +297,13 @@ fn liquid(series: &[(String, Vec<(f64, Record)>)]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn medians_and_greatest_values_are_told_apart() {
+        assert!(measured(&[true, true]).starts_with("Measures are medians"));
+        assert!(measured(&[true, false]).contains("not to be compared"));
+        assert!(measured(&[false]).starts_with("Nothing") && measured(&[]).starts_with("Nothing"));
+    }
 
     #[test]
     fn the_power_is_that_of_the_second_half() {

@@ -179,3 +179,52 @@ fn the_pool_of_a_weld_is_an_ellipsoid_with_the_power_that_it_took() {
     assert!((of("depth_m") - sample::DEEP).abs() < sample::D);
     assert!(of("front_m") > 0.0 && of("rear_m") > of("front_m"));
 }
+
+#[test]
+fn the_last_frame_is_handed_over_however_few_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    warmed(Path::new(&at("block.mcap")));
+    std::fs::write(at("mesh.inp"), MESH).unwrap();
+    let output = report(&[
+        "calculix",
+        &at("block.mcap"),
+        "--mesh",
+        &at("mesh.inp"),
+        "--unit-m",
+        "0.001",
+        "--every",
+        "10",
+        "--out",
+        &at("block"),
+    ]);
+    assert!(output.status.success(), "{output:?}");
+    let steps = std::fs::read_to_string(at("block-steps.inp")).unwrap();
+    assert!(
+        steps.contains("5, 5\n*TEMPERATURE\n1, 350.000\n"),
+        "{steps}"
+    );
+}
+
+#[test]
+fn a_drop_on_its_way_is_no_part_of_the_body() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    sample::weld(Path::new(&at("pool.mcap")), 8.0, 2, true);
+    // The sample has a drop beside the plate.
+    std::fs::write(at("mesh.inp"), "*NODE\n1, 20, 30, -20\n2, 0, 10, -2\n").unwrap();
+    let words = [
+        "calculix",
+        &at("pool.mcap"),
+        "--mesh",
+        &at("mesh.inp"),
+        "--unit-m",
+        "0.001",
+        "--out",
+        &at("out"),
+    ];
+    let output = report(&words);
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("warning: 1 of 2 nodes"), "{said}");
+}

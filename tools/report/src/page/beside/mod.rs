@@ -10,6 +10,7 @@ use artefact::Reader;
 use run::Failure;
 
 use super::Named;
+use crate::html::note;
 use crate::records::RunRecord;
 use crate::weld::{PARTICLES, Stretch, Weld};
 
@@ -100,6 +101,30 @@ pub(super) fn stages(members: &[Member]) -> Vec<&str> {
         }
     }
     all
+}
+
+/// Says where the beads of a stage are of two kinds: medians of what has frozen, and greatest values so far.
+pub(super) fn unlike(members: &[Member]) -> String {
+    let mut out = String::new();
+    for stage in stages(members) {
+        let beads = || {
+            members
+                .iter()
+                .filter_map(|m| Some((&m.name, m.stage(stage)?.stretch.as_ref()?)))
+        };
+        let young: Vec<&str> = beads()
+            .filter(|(_, s)| !s.frozen)
+            .map(|(name, _)| name.as_str())
+            .collect();
+        if !young.is_empty() && beads().any(|(_, s)| s.frozen) {
+            out += &note(&format!(
+                "Nothing of these welds has frozen beyond its run-in: {}. Measures of their beads ('{stage}') are the greatest ones so \
+                 far, those of the others are medians of a frozen stretch: they are not to be compared.",
+                young.join("; ")
+            ));
+        }
+    }
+    out
 }
 
 /// The record of every stage under the name of its run and its own.

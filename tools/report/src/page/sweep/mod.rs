@@ -29,7 +29,8 @@ pub(crate) fn write(files: &SweepFiles) -> Result<(), Failure> {
     let figures = points.figures(&all)?;
     let lead = points.title.as_deref().map_or_else(String::new, paragraph);
     let mut page = Page::new(&format!("{}: sweep", points.study), &lead);
-    page.section("The points", table(&points, &members, &figures));
+    let body = beside::unlike(&members) + &table(&points, &members, &figures);
+    page.section("The points", body);
     page.section("Over what is swept", over::section(&points, &figures));
     for stage in beside::stages(&members) {
         let body = pictures::section(&members, stage)?;
