@@ -174,6 +174,53 @@ fn diff_measures_what_differs_and_says_where() {
 }
 
 #[test]
+fn diff_refuses_a_channel_that_neither_file_has() {
+    let folder = folder();
+    let a = sample(folder.path(), "a.mcap", 0.0);
+    let b = sample(folder.path(), "b.mcap", 3.0);
+    let told = artefact(&["diff", text(&a), text(&b), "--channel", "/nope"]);
+    assert_eq!(told.code, 2, "{}", told.out);
+    assert!(
+        told.err.contains("'/nope'") && !told.out.contains("equal"),
+        "{}",
+        told.err
+    );
+}
+
+#[test]
+fn a_depth_lies_below_the_surface_and_a_temperature_is_no_place() {
+    let folder = folder();
+    let file = folder.path().join("arc.mcap");
+    let mut writer = Writer::create(&file, &header()).unwrap();
+    let grid = |axes: &[(&str, &str, &[f64])]| {
+        Table::grid(axes).column("value", "1", (0..6).map(|n| 1000.0 + f64::from(n)))
+    };
+    let force = grid(&[
+        ("radius_m", "m", &[0.0, 1.0]),
+        ("depth_m", "m", &[0.5, 1.0, 3.0]),
+    ]);
+    writer.table("/lorentz", 0.0, &force).unwrap();
+    let gas = grid(&[
+        ("temperature_k", "K", &[300.0, 400.0]),
+        ("iron", "1", &[0.0, 0.5, 1.0]),
+    ]);
+    writer.table("/gas", 0.0, &gas).unwrap();
+    writer.finish().unwrap();
+    let out = folder.path().join("out");
+    let told = artefact(&["export", text(&file), "--to", "vtu", "--out", text(&out)]);
+    assert_eq!(told.code, 0, "{}", told.err);
+    let bytes = std::fs::read(out.join("lorentz/lorentz_00000.vtr")).unwrap();
+    let at = |values: &[f64]| {
+        let wanted: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
+        bytes.windows(wanted.len()).any(|w| w == wanted)
+    };
+    assert!(at(&[-3.0, -1.0, -0.5]) && !at(&[0.5, 1.0, 3.0]));
+    // From the deepest nodes upwards, the radius fastest.
+    assert!(at(&[1002.0, 1005.0, 1001.0, 1004.0, 1000.0, 1003.0]));
+    assert!(out.join("gas/gas_00000.csv").is_file());
+}
+
+#[test]
 fn diff_tells_scenes_apart_and_does_not_count_them() {
     let folder = folder();
     let a = sample(folder.path(), "a.mcap", 0.0);

@@ -78,7 +78,16 @@ pub(crate) fn run(arguments: &Arguments, streams: &mut Streams<'_>) -> Result<Ve
     let bytes_equal = same_bytes(&arguments.a, &arguments.b)?;
     headers(a.header(), b.header(), streams)?;
     let mut equal = true;
-    for (name, pair) in pairs(&a, &b) {
+    let pairs = pairs(&a, &b);
+    let unknown = |name: &&String| !pairs.contains_key(*name);
+    if let Some(name) = arguments.channel.iter().find(unknown) {
+        let present: Vec<&str> = pairs.keys().map(String::as_str).collect();
+        return Err(Trouble::Usage(format!(
+            "neither file has a channel '{name}'; they have {}",
+            present.join(", ")
+        )));
+    }
+    for (name, pair) in pairs {
         if !arguments.channel.is_empty() && !arguments.channel.contains(&name) {
             continue;
         }

@@ -21,7 +21,7 @@ use series::Series;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Target {
     /// ParaView: frames as .vtu, grids as .vti or .vtr, each channel with a .pvd over time; what
-    /// has no place in space (tables, scalars) as .csv.
+    /// has no place in space (tables, grids over other quantities than lengths, scalars) as .csv.
     #[value(alias = "vtk")]
     Vtu,
     /// NumPy: a .npz with one array per column.
@@ -38,7 +38,7 @@ enum Target {
   target/release/artefact export build/gmaw-300a/arc.mcap --to csv --out build/csv
 Frames, tables and grids become one file per message, CHANNEL/CHANNEL_00012.vtu; records and other
 scalars become one file per channel with a row per message. Coordinates and units are those of the
-artefact (SI); ParaView shows units where they are stored as UNITS_LABEL. Of a damaged file all that
+artefact (SI), but a depth is a z below 0 in ParaView; it shows units where they are stored as UNITS_LABEL. Of a damaged file all that
 is whole is written, what is lost is named, and the exit code is 1.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -150,7 +150,9 @@ impl Export<'_> {
         let (bytes, suffix) = match (self.target, sheet.form) {
             (Target::Npz, _) => (npz::sheet(sheet)?, "npz"),
             (Target::Vtu, Form::Frame) => (vtk::cloud(sheet), "vtu"),
-            (Target::Vtu, Form::Grid) if sheet.rows() > 0 => vtk::grid(sheet),
+            (Target::Vtu, Form::Grid) if sheet.rows() > 0 && vtk::is_place(sheet) => {
+                vtk::grid(sheet)
+            }
             _ => (csv::sheet(sheet), "csv"),
         };
         let file = format!("{0}/{0}_{index:05}.{suffix}", self.name);

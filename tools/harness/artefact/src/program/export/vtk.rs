@@ -55,13 +55,16 @@ pub(super) fn cloud(sheet: &Sheet) -> Vec<u8> {
 /// A grid as image data where its axes are even, else as a rectilinear grid; and the suffix.
 ///
 /// An axis goes along x, y or z by its name (`y_m`; `radius_m` along x; `height_m` and `depth_m`
-/// along z), so that sections lie where the particles are; other axes take what is left. Along its
+/// along z, a depth downwards), so that sections lie where the particles are; other axes take what is left. Along its
 /// normal a section stands at the attribute `x_m`, `y_m` or `z_m`.
 pub(super) fn grid(sheet: &Sheet) -> (Vec<u8>, &'static str) {
     let directions = directions(&sheet.axes);
     let mut along = [const { Vec::new() }; 3];
     for (axis, &direction) in sheet.axes.iter().zip(&directions) {
         along[direction] = axis.values.to_f64();
+        if is_depth(axis) {
+            along[direction] = along[direction].iter().rev().map(|depth| -depth).collect();
+        }
     }
     for (axis, name) in along.iter_mut().zip(["x_m", "y_m", "z_m"]) {
         if axis.is_empty() {
@@ -122,6 +125,16 @@ pub(super) fn collection(steps: &[(f64, String)]) -> String {
     text + "  </Collection>\n</VTKFile>\n"
 }
 
+/// Whether all axes of a grid are lengths.
+pub(super) fn is_place(sheet: &Sheet) -> bool {
+    sheet.axes.iter().all(|axis| axis.unit == "m")
+}
+
+/// Whether an axis counts downwards from a surface.
+fn is_depth(axis: &Column) -> bool {
+    axis.name.split('_').next() == Some("depth")
+}
+
 /// Direction of each axis: 0, 1, 2 for x, y, z, each at most once.
 fn directions(axes: &[Column]) -> Vec<usize> {
     let meant = |name: &str| {
@@ -156,16 +169,18 @@ fn even(axis: &[f64]) -> Option<f64> {
 
 /// Our node (last axis fastest) of each of VTK's nodes (x fastest).
 fn order(sheet: &Sheet, directions: &[usize], along: &[Vec<f64>; 3]) -> Vec<usize> {
-    let mut stride = [0; 3];
+    let (mut stride, mut last) = ([0; 3], [None; 3]);
     let mut step = 1;
-    for (&direction, &n) in directions.iter().zip(&sheet.shape).rev() {
+    for ((&direction, &n), axis) in directions.iter().zip(&sheet.shape).zip(&sheet.axes).rev() {
         stride[direction] = step;
+        last[direction] = is_depth(axis).then_some(n - 1);
         step *= n;
     }
     let [nx, ny, nz] = along.each_ref().map(Vec::len);
     let nodes = (0..nz).flat_map(|k| (0..ny).flat_map(move |j| (0..nx).map(move |i| [i, j, k])));
+    let ours = |k: usize, i: usize| last[k].map_or(i, |last| last - i);
     nodes
-        .map(|at| at.iter().zip(stride).map(|(i, s)| i * s).sum())
+        .map(|at| (0..3).map(|k| ours(k, at[k]) * stride[k]).sum())
         .collect()
 }
 
