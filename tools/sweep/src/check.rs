@@ -6,6 +6,7 @@ use run::scene::{Loaded, load, located, nearest, schema_of};
 use run::{Failure, Fault};
 
 use crate::plan::{Input, KIND, Stage, Sweep};
+use crate::points::Points;
 use crate::template::{calls, texts};
 use crate::values::{self, Named};
 
@@ -18,7 +19,10 @@ const MOST_POINTS: usize = 10_000;
 /// With every fault, each with file, line, path and value.
 pub(crate) fn read(path: &Path, root: &Path) -> Result<Sweep, Failure> {
     let Loaded { scene, merged, .. } = load::<Sweep>(path, &[], &schema_of::<Sweep>(KIND), KIND)?;
-    let faults = faults(&scene, root);
+    let mut faults = faults(&scene, root);
+    if faults.is_empty() {
+        faults.extend(Points::of(scene.clone(), path).confused());
+    }
     if faults.is_empty() {
         return Ok(scene);
     }
@@ -142,7 +146,7 @@ fn of_parameters(sweep: &Sweep) -> Vec<Fault> {
 fn repeated(sweep: &Sweep) -> Vec<Fault> {
     let names = |p: &crate::plan::Parameter| -> Vec<String> {
         let values = values::of(p).unwrap_or_default();
-        values.into_iter().map(|v| v.name).collect()
+        values.into_iter().map(|v| v.meant()).collect()
     };
     let mut found = Vec::new();
     for (i, first) in sweep.parameters.iter().enumerate() {
@@ -154,7 +158,9 @@ fn repeated(sweep: &Sweep) -> Vec<Fault> {
         let all: Vec<Vec<String>> = [first].into_iter().chain(beside).map(names).collect();
         let row = |k: usize| -> Vec<Option<&String>> { all.iter().map(|v| v.get(k)).collect() };
         let again = (1..all[0].len()).filter(|k| (0..*k).any(|old| row(old) == row(*k)));
-        found.extend(again.map(|k| twice(&format!("/parameters/{i}/values/{k}"), &all[0][k])));
+        let written = values::of(first).unwrap_or_default();
+        found
+            .extend(again.map(|k| twice(&format!("/parameters/{i}/values/{k}"), &written[k].name)));
     }
     found
 }
@@ -363,6 +369,15 @@ mod tests {
                 &["/stages/0/inputs/0", "\"stage\" and \"file\""],
             ),
         ]);
+    }
+
+    #[test]
+    fn a_number_that_is_written_in_two_ways_stands_twice() {
+        let told = said(|v| v["parameters"][0]["values"] = json!([1, 1.0]));
+        assert!(
+            told.contains("/parameters/0/values/1") && told.contains("twice"),
+            "{told}"
+        );
     }
 
     #[test]

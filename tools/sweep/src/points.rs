@@ -1,7 +1,9 @@
 //! The points of a sweep, and what each is made of.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use run::Fault;
 use serde_json::Value;
 
 use crate::check::named_by;
@@ -103,6 +105,37 @@ impl Points {
             }
         }
         found
+    }
+
+    /// Points of different values that would share a run, as the names of their folders meet.
+    pub(crate) fn confused(&self) -> Option<Fault> {
+        let reached: Vec<Vec<usize>> = (0..self.sweep.stages.len())
+            .map(|stage| reached(&self.sweep, stage))
+            .collect();
+        let mut first: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
+        for (point, run, some) in self.points.iter().flat_map(|p| {
+            p.runs
+                .iter()
+                .zip(&reached)
+                .map(move |(run, some)| (p, run, some))
+        }) {
+            let names: Vec<&str> = some
+                .iter()
+                .map(|i| point.values[*i].name.as_str())
+                .collect();
+            let known = first.entry(*run).or_insert_with(|| names.clone());
+            if *known != names {
+                let what = format!(
+                    "the values {} and {} would share the folder '{}', and one would get the results of the other: \
+                     give one of them another name, {{\"name\": \"...\", \"value\": ...}}",
+                    known.join(", "),
+                    names.join(", "),
+                    self.runs[*run].at
+                );
+                return Some(Fault::at("/parameters", what));
+            }
+        }
+        None
     }
 
     fn point(&self, choice: &[usize], all: &[Vec<Named>]) -> Point {
@@ -222,6 +255,29 @@ pub(crate) mod tests {
             serde_json::from_value(sweep).unwrap(),
             Path::new("pipelines/welds/sweep.json"),
         )
+    }
+
+    #[test]
+    fn points_whose_folders_would_meet_are_found() {
+        let of = |a: &[&str], b: &[&str]| {
+            let sweep = json!({
+                "study": "welds",
+                "parameters": [{"name": "a", "values": a}, {"name": "b", "values": b}],
+                "stages": [{"name": "arc", "tool": "arcfvm", "scene": "pipelines/arc.json", "template": {"title": "${a} ${b}"}}]
+            });
+            Points::of(
+                serde_json::from_value(sweep).unwrap(),
+                Path::new("sweep.json"),
+            )
+            .confused()
+        };
+        assert!(of(&["x", "y"], &["1", "2"]).is_none());
+        let told = of(&["x-b-1", "x"], &["2", "1-b-2"]).unwrap().to_string();
+        assert!(
+            told.contains("a-x-b-1-b-2") && told.contains("another name"),
+            "{told}"
+        );
+        assert!(welds().confused().is_none());
     }
 
     #[test]

@@ -13,6 +13,20 @@ pub(crate) struct Named {
     pub(crate) value: Value,
 }
 
+impl Named {
+    /// Its name; of a number that is its own name the number, however it is written.
+    pub(crate) fn meant(&self) -> String {
+        match self
+            .value
+            .as_f64()
+            .filter(|_| named(&self.value).name == self.name)
+        {
+            Some(number) => format!("{number:e}"),
+            None => self.name.clone(),
+        }
+    }
+}
+
 /// The values of a parameter.
 ///
 /// # Errors
