@@ -62,7 +62,24 @@ fn trouble(points: &Points, runs: &[usize]) -> Option<(String, String)> {
     first
 }
 
-/// Writes the record and the page, and tells what failed; the number of points that failed.
+/// What the runs of a point warned of, as their records tell.
+fn warnings(points: &Points, runs: &[usize]) -> Vec<String> {
+    let of = |run: &Run| -> Vec<String> {
+        let text = std::fs::read_to_string(run.out.with_extension("run.json"));
+        let record: Value = serde_json::from_str(&text.unwrap_or_default()).unwrap_or_default();
+        let all = record["warnings"].as_array().into_iter().flatten();
+        let stage = &points.sweep.stages[run.stage].name;
+        all.filter_map(Value::as_str)
+            .map(|told| format!("{stage}: warning: {told}"))
+            .collect()
+    };
+    let runs = runs.iter().map(|r| &points.runs[*r]);
+    runs.filter(|run| end(run) == End::Made)
+        .flat_map(of)
+        .collect()
+}
+
+/// Writes the record and the page, and tells what failed and what runs warned of; the number of points of either kind.
 ///
 /// # Errors
 /// When no page can be made.
@@ -82,10 +99,21 @@ pub(crate) fn conclude(points: &Points) -> Result<usize, Failure> {
             say += &format!("{}: {stage}: {words}\n", point.name);
         }
     }
+    let mut doubtful = 0;
+    for (point, trouble) in points.points.iter().zip(&troubles) {
+        let told = warnings(points, &point.runs);
+        doubtful += usize::from(trouble.is_none() && !told.is_empty());
+        for words in told {
+            say += &format!("{}: {words}\n", point.name);
+        }
+    }
     let made = points.points.len() - failed;
     say += &format!("sweep: {made} of {} points are made\n", points.points.len());
+    if doubtful > 0 {
+        say += &format!("sweep: {doubtful} of them warned of something\n");
+    }
     tell(&say);
-    Ok(failed)
+    Ok(failed + doubtful)
 }
 
 #[allow(clippy::print_stderr, reason = "a program talks to its user")]
@@ -144,5 +172,35 @@ fn page(points: &Points, record: &Path) -> Result<(), Failure> {
     match status(&mut rerun)? {
         true => Ok(()),
         false => Err(Failure::Other(format!("{} was not made", page.display()))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+    use super::*;
+    use crate::points::tests::welds;
+
+    #[test]
+    fn what_the_runs_of_a_point_warned_of_is_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut points = welds();
+        for run in &mut points.runs {
+            run.out = folder.path().join(run.out.file_name().unwrap());
+            for file in [
+                run.out.clone(),
+                run.log(),
+                artefact::beside(&run.out, ".key"),
+            ] {
+                std::fs::write(file, "").unwrap();
+            }
+        }
+        let record = folder.path().join("pool.run.json");
+        std::fs::write(record, r#"{"warnings": ["the plate is molten through"]}"#).unwrap();
+        let told = warnings(&points, &points.points[0].runs);
+        assert_eq!(told, ["pool: warning: the plate is molten through"]);
+        std::fs::remove_file(folder.path().join("pool.mcap")).unwrap();
+        assert!(warnings(&points, &points.points[0].runs).is_empty());
     }
 }
