@@ -22,6 +22,7 @@ fn a_certificate_fits_its_schema_and_so_do_those_that_studies_keep() {
         points: None,
         missing: None,
         warnings: vec!["a figure lies beyond its table".to_owned()],
+        frozen: std::collections::BTreeMap::new(),
         scenes: [("disc".to_owned(), "0".repeat(64))].into(),
     };
     let certificate = certify::verdict::conclude(&plan, &[base], None);

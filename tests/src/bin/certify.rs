@@ -93,8 +93,11 @@ fn run(arguments: &Arguments) -> Result<ExitCode, (String, u8)> {
     println!(
         "to show these bands on the study's page: cp {record} pipelines/{study}/certificate.json"
     );
-    let whole = told.figures.values().all(|f| f.not_judged.is_empty());
-    Ok(if whole {
+    let warned = told
+        .points
+        .first()
+        .is_some_and(|base| !base.warnings.is_empty());
+    Ok(if told.is_judged() && !warned {
         ExitCode::SUCCESS
     } else {
         ExitCode::from(3)
@@ -115,8 +118,14 @@ fn prove(lab: &Lab) -> Result<ExitCode, (String, u8)> {
     }
     println!("the truth lies in {} of {} bands", proof.held, proof.judged);
     keep(&lab.out.join("proof.json"), &proof).map_err(|e| (e, 1))?;
-    let enough = proof.judged >= 50 && 10 * proof.held >= 9 * proof.judged;
-    Ok(if enough {
+    println!(
+        "half of the median band is {:.1} times the true error",
+        proof.width
+    );
+    for lost in &proof.lost {
+        println!("no band: {lost}");
+    }
+    Ok(if proof.is_good() {
         ExitCode::SUCCESS
     } else {
         ExitCode::FAILURE
@@ -141,7 +150,13 @@ fn table(told: &Certificate) -> String {
             figure.value, figure.unit
         );
         for knob in &figure.not_judged {
-            text += &format!("{:<20} {knob}: not judged, its sizes were not run\n", "");
+            text += &format!(
+                "{:<20} {knob}: not judged, too few of its sizes were run, have the figure, or differ in it\n",
+                ""
+            );
+        }
+        if figure.half_width.is_none() && figure.not_judged.is_empty() {
+            text += &format!("{:<20} not judged: the plan refines no knob for it\n", "");
         }
     }
     for point in &told.points {
@@ -165,7 +180,7 @@ fn table(told: &Certificate) -> String {
                 least.figure, least.tolerance, least.patch
             ),
             _ => format!(
-                "{} within {:.2e}: no run comes near enough\n",
+                "{} within {:.2e}: no run that warns of nothing comes near enough\n",
                 least.figure, least.tolerance
             ),
         };

@@ -9,7 +9,8 @@
 //! fitted by least squares with weights 1/h_i over p between 1/2 and the formal order (Eca and Hoekstra 2014). The band about
 //! f(h) is the grid convergence index (Roache 1994): 1.25 |f(h) - f_0| where three or more sizes approach one value, and three
 //! times where the order is assumed, or the values swing or barely approach (then the order is assumed too); twice the standard deviation of the fit is added.
-//! It is never below what the values cannot be told apart by.
+//! It is never below what the values cannot be told apart by. Equal values of two sizes may be so by chance and have no band; of three or
+//! more they have one of rounding, and where they are whole numbers, as counts are, one of a half.
 
 use serde::Serialize;
 
@@ -20,6 +21,9 @@ const SAFETY: [f64; 2] = [1.25, 3.0];
 
 /// What solvers leave of a figure and no series can see, over its size.
 const UNSEEN: f64 = 1e-10;
+
+/// Half of the step between counts.
+const COUNTED: f64 = 0.5;
 
 /// What a series of a knob tells of a figure at the base size.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -32,6 +36,18 @@ pub struct Band {
     pub half_width: f64,
     /// Whether the series approaches its limit as its order says: else the band is wide.
     pub trusted: bool,
+}
+
+impl Band {
+    /// Of a figure that a knob cannot change.
+    pub(super) fn none_about(value: f64) -> Self {
+        Self {
+            order: None,
+            extrapolated: value,
+            half_width: UNSEEN * value.abs(),
+            trusted: true,
+        }
+    }
 }
 
 /// A fit of f_0 + c h^p for a given p: f_0, c, and the standard deviation of what is left.
@@ -80,7 +96,8 @@ fn order(sizes: &[f64], values: &[f64], formal: f64) -> f64 {
 
 /// The band of a figure about its value at the size `base`, which is one of `sizes`.
 ///
-/// `formal` is the order that the method promises in this knob, and the greatest that is believed. None with fewer than two sizes.
+/// `formal` is the order that the method promises in this knob, and the greatest that is believed. None with fewer than two sizes, or
+/// where two have the same value, or all the value 0.
 #[must_use]
 pub fn band(sizes: &[f64], values: &[f64], base: f64, formal: f64) -> Option<Band> {
     let at = sizes.iter().position(|h| (h - base).abs() <= 1e-9 * base)?;
@@ -93,10 +110,14 @@ pub fn band(sizes: &[f64], values: &[f64], base: f64, formal: f64) -> Option<Ban
         return None;
     }
     if apart <= noise {
-        return Some(Band {
+        return (sizes.len() > 2 && noise > 0.0).then(|| Band {
             order: None,
             extrapolated: value,
-            half_width: noise,
+            half_width: if value.fract().abs() <= 0.0 {
+                COUNTED
+            } else {
+                noise
+            },
             trusted: true,
         });
     }
@@ -228,9 +249,18 @@ mod tests {
 
     #[test]
     fn what_a_knob_does_not_change_has_no_band() {
-        let band = band(&[0.2, 0.1, 0.05], &[3.0; 3], 0.1, 2.0).unwrap();
+        let band = band(&[0.2, 0.1, 0.05], &[3.1; 3], 0.1, 2.0).unwrap();
         assert!(band.half_width < 1e-9);
         assert!(super::band(&[0.1], &[3.0], 0.1, 2.0).is_none());
+    }
+
+    #[test]
+    fn equal_values_are_not_trusted_farther_than_they_tell() {
+        // Seven drops at both spacings, or at three.
+        assert!(band(&[0.2, 0.1], &[7.0; 2], 0.1, 2.0).is_none());
+        let counted = band(&[0.2, 0.1, 0.05], &[7.0; 3], 0.1, 2.0).unwrap();
+        assert!((counted.half_width - 0.5).abs() < 1e-15);
+        assert!(band(&[0.2, 0.1, 0.05], &[0.0; 3], 0.1, 2.0).is_none());
     }
 
     #[test]

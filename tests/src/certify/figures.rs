@@ -10,11 +10,46 @@ use super::course;
 use super::plan::{Figure, From};
 use crate::lab::{Lab, LabError, read_json};
 
+/// What an artefact tells of a figure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// Its value.
+    pub value: f64,
+    /// Of a bead, whether it is the median of what has frozen; else it is the greatest value so far.
+    pub frozen: Option<bool>,
+}
+
 /// The value of a figure in an artefact.
 ///
 /// # Errors
-/// When the artefact does not hold it.
-pub fn read(lab: &Lab, figure: &Figure, artefact: &Path) -> Result<f64, LabError> {
+/// When the artefact does not hold it, or what it holds is no number.
+pub fn read(lab: &Lab, figure: &Figure, artefact: &Path) -> Result<Reading, LabError> {
+    let reading = match &figure.from {
+        From::Bead(measure) => bead(lab, measure, artefact)?,
+        _ => Reading {
+            value: of_file(figure, artefact)?,
+            frozen: None,
+        },
+    };
+    judged(figure, artefact, reading)
+}
+
+/// Refuses a value that is no number.
+fn judged(figure: &Figure, artefact: &Path, reading: Reading) -> Result<Reading, LabError> {
+    match reading.value.is_finite() {
+        true => Ok(reading),
+        false => {
+            let what = format!(
+                "'{}' is no number: there are no records, rows or values that it could be made from",
+                figure.name
+            );
+            Err(missing(artefact, what))
+        }
+    }
+}
+
+/// The value of a figure that an artefact, or the record beside it, holds.
+fn of_file(figure: &Figure, artefact: &Path) -> Result<f64, LabError> {
     let open = || Reader::open(artefact);
     match &figure.from {
         From::Record { channel, value } => {
@@ -48,17 +83,12 @@ pub fn read(lab: &Lab, figure: &Figure, artefact: &Path) -> Result<f64, LabError
             let never = || missing(artefact, format!("'{value}' does not swing to and fro"));
             course::period(&course).ok_or_else(never)
         }
-        From::Greatest { channel, column } => {
-            let reader = open()?;
-            let table = reader.table_at(channel, reader.count(channel).saturating_sub(1))?;
-            Ok(table
-                .values(column)?
-                .iter()
-                .copied()
-                .fold(f64::NEG_INFINITY, f64::max))
-        }
+        From::Greatest { channel, column } => greatest(&open()?, channel, column),
         From::Closing(name) => closing(artefact, name),
-        From::Bead(measure) => bead(lab, measure, artefact),
+        From::Bead(measure) => Err(missing(
+            artefact,
+            format!("'{measure}' is a measure of a bead"),
+        )),
         From::Point {
             channel,
             column,
@@ -74,6 +104,14 @@ pub fn read(lab: &Lab, figure: &Figure, artefact: &Path) -> Result<f64, LabError
         }
     }
 }
+
+/// The greatest value of a column of the last table; below all numbers where it is empty.
+fn greatest(reader: &Reader, channel: &str, column: &str) -> Result<f64, LabError> {
+    let table = reader.table_at(channel, reader.count(channel).saturating_sub(1))?;
+    let values = table.values(column)?.iter().copied();
+    Ok(values.fold(f64::NEG_INFINITY, f64::max))
+}
+
 /// A column of the last frame at the point that stands at a place.
 fn at_point(artefact: &Path, wanted: &Column<'_>, at_m: &[f64; 3]) -> Result<f64, LabError> {
     let channel = wanted.channel;
@@ -124,7 +162,7 @@ fn missing(path: &Path, what: String) -> LabError {
 }
 
 /// A measure of the bead, by the program that measures beads.
-fn bead(lab: &Lab, measure: &str, artefact: &Path) -> Result<f64, LabError> {
+fn bead(lab: &Lab, measure: &str, artefact: &Path) -> Result<Reading, LabError> {
     let mut command = Command::new(lab.programs.join("report"));
     command.arg("figures").arg("--pool").arg(artefact);
     let output = command.output().map_err(|source| LabError::Io {
@@ -139,7 +177,43 @@ fn bead(lab: &Lab, measure: &str, artefact: &Path) -> Result<f64, LabError> {
         });
     }
     let told: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
-    told[measure]["value"]
-        .as_f64()
-        .ok_or_else(|| missing(artefact, format!("its bead has no measure '{measure}'")))
+    let value = told[measure]["value"].as_f64();
+    let none = || missing(artefact, format!("its bead has no measure '{measure}'"));
+    Ok(Reading {
+        value: value.ok_or_else(none)?,
+        frozen: told[measure]["frozen"].as_bool(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_figure_that_is_no_number_is_told_as_that() {
+        let figure: Figure = serde_json::from_value(
+            serde_json::json!({"name": "mean_force", "unit": "N", "stage": "a",
+            "from": {"closing": "force"}}),
+        )
+        .unwrap();
+        let of = |value| {
+            judged(
+                &figure,
+                Path::new("a.mcap"),
+                Reading {
+                    value,
+                    frozen: None,
+                },
+            )
+        };
+        assert!(of(1.0).is_ok());
+        for value in [f64::NAN, f64::NEG_INFINITY] {
+            assert!(
+                of(value)
+                    .unwrap_err()
+                    .to_string()
+                    .contains("'mean_force' is no number")
+            );
+        }
+    }
 }

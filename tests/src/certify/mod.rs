@@ -12,6 +12,7 @@ pub mod band;
 pub mod course;
 pub mod figures;
 pub mod plan;
+mod point;
 pub mod proof;
 pub mod runs;
 pub mod verdict;

@@ -21,6 +21,23 @@ pub struct Plan {
     pub knobs: Vec<Knob>,
 }
 
+impl Plan {
+    /// Whether a change of a stage reaches another: that stage itself, or one that reads from it.
+    #[must_use]
+    pub fn reaches(&self, turned: &str, stage: &str) -> bool {
+        let Some(stage) = self.stages.iter().find(|s| s.name == stage) else {
+            return false;
+        };
+        let earlier = |input: &Input| {
+            input
+                .stage
+                .as_ref()
+                .is_some_and(|of| self.reaches(turned, of))
+        };
+        stage.name == turned || stage.inputs.iter().any(earlier)
+    }
+}
+
 /// A stage of a study.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -40,6 +40,34 @@ pub struct Proof {
     pub held: usize,
     /// Each of them.
     pub answers: Vec<Answer>,
+    /// Figures without a value or a band.
+    pub lost: Vec<String>,
+    /// Median of half the width of a band over the true error.
+    pub width: f64,
+}
+
+impl Proof {
+    /// Whether every figure has a band, nine in ten bands hold the truth, and bands are no wider than they must be.
+    #[must_use]
+    pub fn is_good(&self) -> bool {
+        self.lost.is_empty()
+            && self.judged > 0
+            && 10 * self.held >= 9 * self.judged
+            && self.width <= WIDEST
+    }
+}
+
+/// Greatest median of half the width of a band over the true error: any band would hold the truth if it were wide enough.
+const WIDEST: f64 = 30.0;
+
+/// Median of half the width over the error.
+fn width(answers: &[Answer]) -> f64 {
+    let of = |a: &Answer| {
+        a.certified.half_width.unwrap_or(f64::NAN) / (a.certified.value - a.exact).abs()
+    };
+    let mut all: Vec<f64> = answers.iter().map(of).collect();
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// A problem with exact answers: a plan, a patch of its parameters, the figures' exact values.
@@ -54,15 +82,14 @@ struct Problem {
 /// # Errors
 /// When a program fails.
 pub fn prove(lab: &Lab) -> Result<Proof, LabError> {
-    let mut answers = Vec::new();
+    let (mut answers, mut lost) = (Vec::new(), Vec::new());
     for problem in problems() {
         let plan = problem.plan(lab)?;
         let told = certify(lab, &plan, Duration::from_secs(600), None)?;
         for (figure, exact) in problem.exact {
-            let Some(certified) = told.figures.get(figure) else {
-                continue;
-            };
-            let Some(half) = certified.half_width else {
+            let certified = told.figures.get(figure);
+            let Some((certified, half)) = certified.and_then(|c| Some((c, c.half_width?))) else {
+                lost.push(format!("{} {figure}", plan.study));
                 continue;
             };
             answers.push(Answer {
@@ -78,7 +105,9 @@ pub fn prove(lab: &Lab) -> Result<Proof, LabError> {
         kind: "certificate-proof",
         judged: answers.len(),
         held: answers.iter().filter(|a| a.held).count(),
+        width: width(&answers),
         answers,
+        lost,
     })
 }
 
@@ -277,5 +306,44 @@ fn sphere(ratio: f64) -> Problem {
             ("inside", -field * 3.0 / (ratio + 2.0)),
             ("outside", -field * (1.0 + 2.0 * beta * (r / at).powi(3))),
         ],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_proof_without_figures_or_with_bands_that_hold_anything_is_none() {
+        let answer = |half: f64| Answer {
+            problem: "a".to_owned(),
+            figure: "b".to_owned(),
+            exact: 1.0,
+            certified: Certified {
+                stage: "run".to_owned(),
+                unit: "K".to_owned(),
+                value: 1.01,
+                extrapolated: None,
+                half_width: Some(half),
+                scatter: None,
+                knobs: std::collections::BTreeMap::new(),
+                not_judged: Vec::new(),
+            },
+            held: half > 0.01,
+        };
+        let proof = |answers: Vec<Answer>, lost: &[&str]| Proof {
+            kind: "certificate-proof",
+            judged: answers.len(),
+            held: answers.iter().filter(|a| a.held).count(),
+            width: width(&answers),
+            answers,
+            lost: lost.iter().map(|l| (*l).to_owned()).collect(),
+        };
+        assert!(proof(vec![answer(0.02)], &[]).is_good());
+        assert!(!proof(vec![answer(0.02)], &["a c"]).is_good());
+        assert!(
+            !proof(vec![answer(0.4)], &[]).is_good() && !proof(vec![answer(0.005)], &[]).is_good()
+        );
+        assert!(!proof(Vec::new(), &[]).is_good());
     }
 }

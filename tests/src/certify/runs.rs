@@ -9,41 +9,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use serde::Serialize;
 use serde_json::Value;
 
-use super::figures;
+use super::figures::{self, Reading};
 use super::plan::{Plan, Series, Stage};
+pub use super::point::Point;
 use crate::lab::{Lab, LabError, read_json};
-
-/// One point of a plan.
-#[derive(Debug, Clone, Serialize)]
-pub struct Point {
-    /// `base`, or knob and number.
-    pub name: String,
-    /// Which knob is turned, none for the base.
-    pub knob: Option<String>,
-    /// Its size, where it is refined.
-    pub size: Option<f64>,
-    /// The patch.
-    pub patch: Value,
-    /// Figures by name; empty where it was not run.
-    pub figures: BTreeMap<String, f64>,
-    /// Wall time of its own stages \[s\], whenever they were run; of all stages for the base.
-    pub run_time_s: Option<f64>,
-    /// Processor time of the same; none where a record does not tell it.
-    pub processor_s: Option<f64>,
-    /// Greatest resident memory of its stages \[byte\].
-    pub peak_memory_bytes: Option<u64>,
-    /// Points, cells or particles of the stage that was turned, where its record tells.
-    pub points: Option<u64>,
-    /// Why it was not run, or what failed.
-    pub missing: Option<String>,
-    /// What its stages warned of: a figure of such a run may be worth less than its band says.
-    pub warnings: Vec<String>,
-    /// Hashes of the scenes of its stages.
-    pub scenes: BTreeMap<String, String>,
-}
 
 /// A point to be run.
 struct Wanted<'a> {
@@ -90,7 +61,12 @@ pub fn run(lab: &Lab, plan: &Plan, budget: Duration) -> Result<Vec<Point>, LabEr
         eprintln_progress(&point.name, expected);
         let limit = if patient { None } else { Some(left) };
         match one(lab, plan, point, limit) {
-            Ok(finished) => done.push(finished),
+            Ok(mut finished) => {
+                if let Some(base) = done.first() {
+                    finished.keep_what_is_as_in(base);
+                }
+                done.push(finished);
+            }
             Err(error) if point.knob.is_some() => done.push(point.left_out(error.to_string())),
             Err(error) => return Err(error),
         }
@@ -189,6 +165,7 @@ impl Wanted<'_> {
             missing: Some(why),
             warnings: Vec::new(),
             scenes: BTreeMap::new(),
+            frozen: BTreeMap::new(),
         }
     }
 
@@ -197,12 +174,7 @@ impl Wanted<'_> {
         let Some((_, turned)) = self.knob else {
             return true;
         };
-        stage.name == turned
-            || stage.inputs.iter().any(|input| {
-                let of = input.stage.as_deref();
-                let from = plan.stages.iter().find(|s| Some(s.name.as_str()) == of);
-                from.is_some_and(|s| self.reaches(plan, s))
-            })
+        plan.reaches(turned, &stage.name)
     }
 }
 
@@ -264,8 +236,11 @@ fn one(
         let stage = plan.stages.iter().find(|s| s.name == figure.stage);
         let Some(stage) = stage else { continue };
         match figures::read(lab, figure, &place(lab, plan, point, stage)) {
-            Ok(value) => {
+            Ok(Reading { value, frozen }) => {
                 found.figures.insert(figure.name.clone(), value);
+                found
+                    .frozen
+                    .extend(frozen.map(|frozen| (figure.name.clone(), frozen)));
             }
             // A coarse run may not have what the study has: a block that is never in two.
             Err(LabError::Content { what, .. }) if point.knob.is_some() => {

@@ -120,6 +120,15 @@ pub struct Certificate {
     pub least: Option<Least>,
 }
 
+impl Certificate {
+    /// Whether there are figures, and each has a band.
+    #[must_use]
+    pub fn is_judged(&self) -> bool {
+        let has = |figure: &Certified| figure.half_width.is_some_and(f64::is_finite);
+        !self.figures.is_empty() && self.figures.values().all(has)
+    }
+}
+
 /// Puts the record together.
 #[must_use]
 pub fn conclude(plan: &Plan, points: &[Point], tolerance: Option<&Tolerance>) -> Certificate {
@@ -175,6 +184,10 @@ fn certified(plan: &Plan, points: &[Point], figure: &Figure) -> Option<Certified
                 Some(band) => {
                     knobs.insert(knob.name.clone(), band);
                 }
+                // What a knob does not reach is the same by its making, not by chance.
+                None if !plan.reaches(&knob.stage, stage) && sizes.len() > 1 => {
+                    knobs.insert(knob.name.clone(), Band::none_about(value));
+                }
                 None => not_judged.push(knob.name.clone()),
             }
         } else {
@@ -201,7 +214,7 @@ fn certified(plan: &Plan, points: &[Point], figure: &Figure) -> Option<Certified
     })
 }
 
-/// The quickest point whose error is within the tolerance.
+/// The quickest point that has the figure and warned of nothing, whose error is within the tolerance.
 fn least(plan: &Plan, points: &[Point], figure: &Certified, tolerance: &Tolerance) -> Least {
     let mut best = Least {
         figure: tolerance.figure.clone(),
@@ -215,6 +228,9 @@ fn least(plan: &Plan, points: &[Point], figure: &Certified, tolerance: &Toleranc
         let Some(time) = point.run_time_s else {
             continue;
         };
+        if !point.figures.contains_key(&tolerance.figure) || !point.warnings.is_empty() {
+            continue;
+        }
         let Some(error) = error_of(plan, points, figure, point, &tolerance.figure) else {
             continue;
         };
@@ -289,6 +305,7 @@ mod tests {
             missing: None,
             warnings: Vec::new(),
             scenes: BTreeMap::new(),
+            frozen: BTreeMap::new(),
         }
     }
 
@@ -335,6 +352,40 @@ mod tests {
                 .contains("depth")
         );
         assert!(Tolerance::parse("depth 1 K", &plan).is_err());
+    }
+
+    #[test]
+    fn a_run_without_the_figure_or_with_warnings_is_not_the_least() {
+        let plan = plan();
+        let tolerance = Tolerance::parse("depth 300 mm", &plan).unwrap();
+        let least = |points: &[Point]| {
+            conclude(&plan, points, Some(&tolerance))
+                .least
+                .unwrap()
+                .point
+        };
+        let mut points = points();
+        points.push(point("start-3", Some("start"), None, 0.0, 0.1));
+        points[5].figures.clear();
+        assert_eq!(least(&points).as_deref(), Some("spacing-0.4"));
+        points[1]
+            .warnings
+            .push("pool: has not converged".to_owned());
+        assert_eq!(least(&points).as_deref(), Some("base"));
+    }
+
+    #[test]
+    fn a_figure_is_judged_where_it_has_a_band() {
+        let plan = plan();
+        let told = conclude(&plan, &points(), None);
+        assert!(told.is_judged());
+        let by_chance_alone = Plan {
+            knobs: vec![plan.knobs[1].clone()],
+            ..plan.clone()
+        };
+        let told = conclude(&by_chance_alone, &points(), None);
+        assert!(told.figures["depth"].not_judged.is_empty() && !told.is_judged());
+        assert!(!conclude(&plan, &points()[..1], None).is_judged());
     }
 
     #[test]
