@@ -1,24 +1,34 @@
 //! Error norms and observed orders.
 
+/// The greatest of errors, which are 0 or more.
+pub trait Worst: Iterator<Item = f64> + Sized {
+    /// The greatest; not a number where there is none, or where one is none: `max` would forget it, and 0 would pass.
+    fn worst(self) -> f64 {
+        let greater = |a: f64, b: f64| {
+            if a.is_nan() || b.is_nan() {
+                f64::NAN
+            } else {
+                a.max(b)
+            }
+        };
+        self.reduce(greater).unwrap_or(f64::NAN)
+    }
+}
+
+impl<I: Iterator<Item = f64>> Worst for I {}
+
 /// Relative L2 and L-infinity errors of `found` against `exact`, both scaled by the largest
-/// magnitude of `exact` (or by 1 where that is zero).
+/// magnitude of `exact` (or by 1 where that is zero). Not numbers where there is nothing, or less than is exact.
 #[must_use]
 pub fn relative(found: &[f64], exact: &[f64]) -> (f64, f64) {
+    if found.len() != exact.len() {
+        return (f64::NAN, f64::NAN);
+    }
     let scale = exact.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     let scale = if scale > 0.0 { scale } else { 1.0 };
-    let mut sum = 0.0;
-    let mut worst = 0.0_f64;
-    for (f, e) in found.iter().zip(exact) {
-        let d = (f - e).abs() / scale;
-        sum += d * d;
-        // `max` forgets a NaN; an error that is not a number must stay one.
-        worst = if d.is_nan() || worst.is_nan() {
-            f64::NAN
-        } else {
-            worst.max(d)
-        };
-    }
-    ((sum / found.len().max(1) as f64).sqrt(), worst)
+    let apart = || found.iter().zip(exact).map(|(f, e)| (f - e).abs() / scale);
+    let sum: f64 = apart().map(|d| d * d).sum();
+    ((sum / found.len() as f64).sqrt(), apart().worst())
 }
 
 /// Observed order of convergence: slope of log(error) over log(spacing) by least squares.
@@ -55,6 +65,17 @@ mod tests {
     #[test]
     fn an_exact_result_has_no_order() {
         assert!(observed_order(&[0.4, 0.2], &[0.0, 0.0]).is_none());
+    }
+
+    #[test]
+    fn nothing_has_no_error() {
+        let none = |(mean, worst): (f64, f64)| mean.is_nan() && worst.is_nan();
+        assert!(none(relative(&[], &[])) && none(relative(&[1.0], &[1.0, 2.0])));
+        assert!(
+            [0.0; 0].into_iter().worst().is_nan()
+                && [1.0, f64::NAN, 2.0].into_iter().worst().is_nan()
+        );
+        assert!(([1.0, 3.0, 2.0].into_iter().worst() - 3.0).abs() < 1e-15);
     }
 
     #[test]

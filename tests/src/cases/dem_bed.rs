@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::grains::{fault, frames, mass};
 use crate::lab::{Finished, Lab, LabError};
+use crate::norms::Worst as _;
 use crate::particles::number;
 
 /// The case.
@@ -74,7 +75,7 @@ impl Case for DemBed {
         let [series, parallel] = bed.bounds();
         let exact = bed.conductance() / bed.spacing(SPRINGS[2]);
         let errors = Errors::from([
-            ("of_spring".to_owned(), apart.fold(0.0, f64::max)),
+            ("of_spring".to_owned(), apart.worst()),
             ("conductivity".to_owned(), (last / exact - 1.0).abs()),
             (
                 "out_of_bounds".to_owned(),

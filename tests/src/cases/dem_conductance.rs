@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::grains::{fault, frames, mass};
 use crate::lab::{Finished, Lab, LabError};
+use crate::norms::Worst as _;
 use crate::particles::number;
 
 /// The case.
@@ -173,10 +174,7 @@ impl Exact {
         let stored = record(end, "enthalpy_j")? - record(0, "enthalpy_j")?;
         let brought = record(end, "grain_heat_held_j")? - record(0, "grain_heat_held_j")?;
         Ok(Errors::from([
-            (
-                "line".to_owned(),
-                off.fold(0.0, f64::max) / (hot - cold).abs(),
-            ),
+            ("line".to_owned(), off.worst() / (hot - cold).abs()),
             ("heat".to_owned(), (brought / stored - 1.0).abs()),
         ]))
     }

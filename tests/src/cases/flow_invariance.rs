@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::flow::{apart, layers};
 use crate::lab::{Finished, Lab, LabError, Subject};
+use crate::norms::Worst as _;
 use crate::particles::{Frames, number};
 
 /// The case.
@@ -173,7 +174,7 @@ fn errors(base: &[Vec<[f64; 2]>], other: &[Vec<[f64; 2]>], across: (f64, usize))
     let worst = pairs.map(|(one, other)| apart(one, other, across.0, across.1));
     // What ended early is another flow.
     let worst = if base.len() == other.len() {
-        worst.fold(0.0, f64::max)
+        worst.worst()
     } else {
         f64::INFINITY
     };

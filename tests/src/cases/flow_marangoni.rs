@@ -3,6 +3,7 @@
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::flow::{Driven, layers, zeros};
 use crate::lab::{Finished, Lab, LabError, Subject};
+use crate::norms::Worst as _;
 use crate::particles::{Frames, measurement, number};
 
 /// The case.
@@ -143,7 +144,7 @@ fn errors(run: &Finished, frames: &Frames) -> Result<Errors, LabError> {
     };
     let exact = |z: f64| flow.speed((z / high).min(1.0), tau);
     let error = |[z, u]: &[f64; 2]| (u - exact(*z)).abs() / scale;
-    let profile = seen.iter().map(error).fold(0.0, f64::max);
+    let profile = seen.iter().map(error).worst();
     let surface = seen.last().map_or(f64::NAN, error);
     let (heights, speeds): (Vec<f64>, Vec<f64>) = seen.iter().map(|[z, u]| (z / high, *u)).unzip();
     let heights_of = |heights: &[f64], speeds: &[f64]| zeros(heights, speeds).last().copied();

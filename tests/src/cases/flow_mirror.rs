@@ -4,6 +4,7 @@ use serde_json::json;
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::lab::{Finished, Lab, LabError};
+use crate::norms::Worst as _;
 use crate::particles::{Frames, number};
 
 /// The case.
@@ -85,7 +86,7 @@ fn errors(half: &Finished, whole: &Finished, deep: f64) -> Result<Errors, LabErr
     };
     let worst = |of: fn(&Cell) -> f64| {
         let apart = one.iter().zip(&other).map(|(a, b)| (of(a) - of(b)).abs());
-        apart.fold(0.0, f64::max)
+        apart.worst()
     };
     let along = |cell: &Cell| cell.mean[0];
     let kelvin = |cell: &Cell| cell.mean[1];

@@ -11,6 +11,7 @@ use crate::drop::{Series, points};
 use crate::em::frames::planned;
 use crate::heat::methods::over;
 use crate::lab::{Finished, Lab, LabError};
+use crate::norms::Worst as _;
 
 /// Without friction.
 pub(super) struct LiquidDrop;
@@ -75,7 +76,7 @@ impl Case for LiquidDrop {
                 "period_fit".to_owned(),
                 (found.1.period() / period - 1.0).abs(),
             ),
-            ("volume".to_owned(), drift.fold(0.0, f64::max)),
+            ("volume".to_owned(), drift.worst()),
         ]);
         let spacing = unit.radius / PARTS[level.clamp(1, 3) as usize - 1];
         let costs = [("points", count as f64)];

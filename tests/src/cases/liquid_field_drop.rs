@@ -7,6 +7,7 @@ use artefact::Reader;
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::em::frames::planned;
 use crate::lab::{Lab, LabError};
+use crate::norms::Worst as _;
 
 /// The case.
 pub(super) struct LiquidFieldDrop;
@@ -87,7 +88,7 @@ impl Case for LiquidFieldDrop {
         let (curvature, traction) = (table.values("curvature")?, table.values("traction")?);
         let left = curvature.iter().zip(traction);
         let left = left.map(|(k, t)| (tension * k - pressure - t).abs() * radius / tension);
-        errors.insert("balance".to_owned(), left.fold(0.0, f64::max));
+        errors.insert("balance".to_owned(), left.worst());
         if let Some(limit) = limit {
             let ratio = record.get("capillary_limit")? / limit;
             errors.insert("limit_beyond".to_owned(), (ratio - 0.985).abs());

@@ -11,6 +11,7 @@ use crate::drop::swing::zeros;
 use crate::drop::{Series, points};
 use crate::em::frames::number;
 use crate::lab::{Finished, Lab, LabError, Subject};
+use crate::norms::Worst as _;
 
 /// The case.
 pub(super) struct LiquidFlow;
@@ -106,7 +107,7 @@ fn instants(run: &Finished) -> Result<Vec<Instant>, LabError> {
 
 /// Largest of all values.
 fn most(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, f64::max)
+    values.worst()
 }
 
 fn size(u: [f64; 3]) -> f64 {

@@ -7,6 +7,7 @@ use artefact::Reader;
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::drop::{Sphere, points};
 use crate::lab::{Lab, LabError};
+use crate::norms::Worst as _;
 
 /// The case.
 pub(super) struct LiquidRest;
@@ -57,15 +58,12 @@ impl Case for LiquidRest {
         let wanted = 2.0 * tension / radius;
         let pressure: Vec<f64> = frame.f64("pressure")?.iter().map(|p| p - gas).collect();
         let mean = pressure.iter().sum::<f64>() / pressure.len() as f64;
-        let spread = pressure
-            .iter()
-            .map(|p| (p - mean).abs())
-            .fold(0.0, f64::max);
+        let spread = pressure.iter().map(|p| (p - mean).abs()).worst();
         let fastest = frame
             .vectors("velocity")?
             .iter()
             .map(|u| u.iter().map(|c| c * c).sum::<f64>().sqrt())
-            .fold(0.0, f64::max);
+            .worst();
         let errors = Errors::from([
             ("pressure_mean".to_owned(), (mean / wanted - 1.0).abs()),
             ("pressure_spread".to_owned(), spread / wanted),

@@ -9,6 +9,7 @@ use crate::drop::swing::zeros;
 use crate::drop::{Series, drift, points};
 use crate::em::frames::planned;
 use crate::lab::{Lab, LabError};
+use crate::norms::Worst as _;
 
 /// The case.
 pub(super) struct LiquidStretched;
@@ -86,7 +87,7 @@ impl Case for LiquidStretched {
         for series in centre {
             let series = series?.value;
             let most = series.iter().map(|c| (c - series[0]).abs());
-            aside = aside.max(most.fold(0.0, f64::max) / radius);
+            aside = [aside, most.worst() / radius].into_iter().worst();
         }
         let errors = Errors::from([
             ("energy_back".to_owned(), back(&energy)),

@@ -9,6 +9,7 @@ use serde_json::json;
 
 use crate::em::frames::planned;
 use crate::lab::{Finished, Lab, LabError};
+use crate::norms::Worst as _;
 
 /// What the scene of a case says of its spherical drop.
 #[derive(Debug, Clone, Copy)]
@@ -54,7 +55,7 @@ impl Sphere {
 pub fn drift(run: &Finished) -> Result<f64, LabError> {
     let volume = Series::read(run, "volume")?.value;
     let drift = volume.iter().map(|v| (v / volume[0] - 1.0).abs());
-    Ok(drift.fold(0.0, f64::max))
+    Ok(drift.worst())
 }
 
 /// A column of the rows of a drop, with their times \[s\].
