@@ -71,6 +71,16 @@ pub struct Study {
     series: Vec<Series>,
 }
 
+/// Levels that are asked for, each once, the finest last.
+fn rising(asked: &[u32]) -> Vec<u32> {
+    asked
+        .iter()
+        .copied()
+        .collect::<BTreeSet<_>>()
+        .into_iter()
+        .collect()
+}
+
 /// Runs `case` at `levels` with each of its methods, which take turns at every level.
 ///
 /// Where a patch of the user's does not fit a method, the others go on and the record tells why. What a run has found is given to
@@ -84,6 +94,7 @@ pub fn study(
     levels: &[u32],
     mut tell: impl FnMut(&str),
 ) -> Result<Study, LabError> {
+    let levels = &rising(levels);
     let methods = case.methods();
     let mut all: Vec<Vec<Taken>> = methods.iter().map(|_| Vec::new()).collect();
     let mut refused: Vec<Option<LabError>> = methods.iter().map(|_| None).collect();

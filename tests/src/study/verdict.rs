@@ -101,7 +101,7 @@ impl Verdict {
             } => {
                 self.min = Some(min);
                 self.or_error_below = or_error_below;
-                self.judge_order(series, over);
+                self.judge_order(series, over, levels);
             }
         }
     }
@@ -121,7 +121,7 @@ impl Verdict {
     }
 
     /// The order over the levels of `over` against `min`.
-    fn judge_order(&mut self, series: Option<&Series>, over: Span) {
+    fn judge_order(&mut self, series: Option<&Series>, over: Span, levels: &[u32]) {
         self.found = series.and_then(|s| match over {
             Span::All => s.order.get(&self.quantity).copied().flatten(),
             Span::FinestTwo => finest_order(s, &self.quantity),
@@ -138,7 +138,9 @@ impl Verdict {
             .or_error_below
             .zip(self.finest_error)
             .is_some_and(|(below, error)| error <= below);
-        self.holds = Some(rises || exact);
+        // Two levels make an order.
+        let single = series.is_some_and(|s| s.levels.len() < 2) && levels.len() < 2;
+        self.holds = (rises || exact || !single).then_some(rises || exact);
     }
 }
 
@@ -245,6 +247,17 @@ mod tests {
         assert_eq!(holds, Some(true));
         assert_eq!(judged(Target::order("a", 2.1).at_the_end()).1, Some(false));
         assert_eq!(judged(Target::order("a", 1.9)).1, Some(false));
+    }
+
+    #[test]
+    fn an_order_of_one_level_is_open() {
+        let made = [series("fine", &[(1, 1e-3)], None)];
+        let judged = |target: Target, levels: &[u32]| {
+            let all = verdicts(std::slice::from_ref(&target), &made, levels);
+            all[&target.name()].holds
+        };
+        assert_eq!(judged(Target::order("a", 1.9), &[1]), None);
+        assert_eq!(judged(Target::order("a", 1.9), &[1, 2]), Some(false));
     }
 
     fn holds(target: Target, levels: &[u32]) -> Option<bool> {
