@@ -52,7 +52,23 @@ fn main() -> ExitCode {
     }
 }
 
+/// Sorts of trials.
+const SORTS: [&str; 3] = ["scene", "run", "file"];
+
+/// Refuses what would try nothing and find nothing.
+fn must_try(arguments: &Arguments) -> Result<(), String> {
+    let unknown = |sort: &&String| !SORTS.contains(&sort.as_str());
+    if let Some(sort) = arguments.sort.iter().find(unknown) {
+        return Err(format!("there is no sort '{sort}': {}", SORTS.join(", ")));
+    }
+    match arguments.number {
+        0 => Err("--number 0 tries nothing".to_owned()),
+        _ => Ok(()),
+    }
+}
+
 fn run(arguments: &Arguments) -> Result<bool, String> {
+    must_try(arguments)?;
     let programs = std::env::current_exe().map_err(|e| e.to_string())?;
     let of = |sort: &str, n: u64| {
         if arguments.sort.iter().any(|s| s == sort) {
@@ -84,4 +100,22 @@ fn run(arguments: &Arguments) -> Result<bool, String> {
     artefact::write_atomically(&campaign.out.join("fuzz.json"), (text + "\n").as_bytes())
         .map_err(|e| e.to_string())?;
     Ok(outcome.findings.is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_would_try_nothing_is_refused() {
+        let of = |words: &[&str]| {
+            let words = ["fuzz"].iter().chain(words);
+            must_try(&Arguments::try_parse_from(words).map_err(|e| e.to_string())?)
+        };
+        assert!(of(&[]).is_ok() && of(&["--sort", "scene,file"]).is_ok());
+        assert!(
+            of(&["--sort", "typo"]).is_err_and(|told| told.contains("'typo': scene, run, file"))
+        );
+        assert!(of(&["--number", "0"]).is_err());
+    }
 }

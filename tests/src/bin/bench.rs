@@ -97,12 +97,13 @@ fn run(arguments: &Arguments) -> Result<(), String> {
     threads.dedup();
     let everything = arguments.case.is_empty();
     let wanted = |name: &str| everything || arguments.case.iter().any(|case| case == name);
+    let all = absences(Path::new("pipelines/bench/absent")).map_err(|e| e.to_string())?;
+    known(&arguments.case, &all)?;
     if wanted(CORES) {
         let rows = speed::cores(&threads, arguments.repeats.max(1)).map_err(|e| e.to_string())?;
         let record = Record::of_rows(CORES, rows);
         write(&arguments.out, CORES, &record, &record.table())?;
     }
-    let all = absences(Path::new("pipelines/bench/absent")).map_err(|e| e.to_string())?;
     let named = |pair: &&Absence| wanted(ABSENT) || wanted(&format!("{ABSENT}-{}", pair.name));
     let bench = Bench {
         programs: &programs,
@@ -215,6 +216,26 @@ fn written(arguments: &Arguments, name: &str, record: &others::Record) -> Result
         return Ok(());
     }
     Err("not all programs gave all figures; see above".to_owned())
+}
+
+/// Refuses a case of absent physics that is not there; folders of pipelines/bench are refused where they are timed.
+fn known(cases: &[String], all: &[Absence]) -> Result<(), String> {
+    let called = |pair: &Absence| format!("{ABSENT}-{}", pair.name);
+    let absent = |case: &&String| !scene(case) && *case != CORES && *case != ABSENT;
+    if cases.iter().any(|case| case == ABSENT) && all.is_empty() {
+        return Err("there are no pairs in pipelines/bench/absent".to_owned());
+    }
+    let unknown = cases
+        .iter()
+        .filter(absent)
+        .find(|case| all.iter().all(|pair| called(pair) != **case));
+    match unknown {
+        Some(case) => {
+            let names: Vec<String> = all.iter().map(called).collect();
+            Err(format!("there is no '{case}': {}", names.join(", ")))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Whether a case is a folder of pipelines/bench.

@@ -39,7 +39,7 @@ pub(super) fn row(job: &Job, times: usize, chance: &mut Chance) -> Result<Row, S
             wrong = Some(format!("kill {killed} led to other bytes"));
         }
     }
-    let holds = wrong.is_none();
+    let holds = wrong.is_none() && killed > 0;
     Ok(Row {
         fault: "killed at a random moment".to_owned(),
         who: job.name.to_owned(),
