@@ -5,9 +5,9 @@ use std::path::Path;
 use run::scene::{Loaded, load, located, nearest, schema_of};
 use run::{Failure, Fault};
 
-use crate::plan::{Input, KIND, Stage, Sweep};
+use crate::plan::{Input, KIND, Sweep};
 use crate::points::Points;
-use crate::template::{calls, texts};
+use crate::template::{calls, named_by, texts};
 use crate::values::{self, Named};
 
 /// More points than this are a slip of the pen.
@@ -179,18 +179,6 @@ fn of_with(sweep: &Sweep, index: usize, counts: &[usize]) -> Option<Fault> {
         Some(_) => return None,
     };
     Some(Fault::at("/with", what))
-}
-
-/// Parameters that a stage names itself.
-pub(crate) fn named_by(stage: &Stage) -> Vec<&str> {
-    let files = stage.inputs.iter().filter_map(|i| i.file.as_ref());
-    let paths = [&stage.scene]
-        .into_iter()
-        .chain(&stage.patches)
-        .chain(files);
-    let template = stage.template.iter().flat_map(texts).map(|(_, text)| text);
-    let all = paths.map(String::as_str).chain(template);
-    all.flat_map(calls).collect()
 }
 
 fn of_stage(sweep: &Sweep, index: usize, root: &Path) -> impl Iterator<Item = Fault> {

@@ -6,9 +6,8 @@ use std::path::{Path, PathBuf};
 use run::Fault;
 use serde_json::Value;
 
-use crate::check::named_by;
 use crate::plan::{Stage, Sweep};
-use crate::template;
+use crate::template::{self, named_by};
 use crate::values::{self, Named};
 
 /// A point: one value of each parameter.

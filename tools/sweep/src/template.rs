@@ -2,6 +2,8 @@
 
 use serde_json::Value;
 
+use crate::plan::Stage;
+
 /// The names that a text calls, each with its `${...}`.
 pub(crate) fn calls(text: &str) -> Vec<&str> {
     let mut all = Vec::new();
@@ -65,6 +67,18 @@ pub(crate) fn filled(template: &Value, value: &impl Fn(&str) -> (String, Value))
         }
         other => other.clone(),
     }
+}
+
+/// Parameters that a stage names itself.
+pub(crate) fn named_by(stage: &Stage) -> Vec<&str> {
+    let files = stage.inputs.iter().filter_map(|i| i.file.as_ref());
+    let paths = [&stage.scene]
+        .into_iter()
+        .chain(&stage.patches)
+        .chain(files);
+    let template = stage.template.iter().flat_map(texts).map(|(_, text)| text);
+    let all = paths.map(String::as_str).chain(template);
+    all.flat_map(calls).collect()
 }
 
 #[cfg(test)]
