@@ -49,7 +49,7 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Vec<Fault>> {
         match water::water(scene, of, &mut state) {
             Ok(flowing) => {
                 let (law, stage) = (flowing.law, flowing.stage);
-                let meet = |solid| water::meet((scene, of), law, solid, &mut state);
+                let meet = |solid| water::meet(scene, of, law, solid, &mut state);
                 stages.splice(0..0, solids.iter().map(meet).collect::<Vec<_>>());
                 (last, notes) = (flowing.last, flowing.notes);
                 if of.method == Method::DivergenceFree {

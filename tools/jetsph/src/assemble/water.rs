@@ -141,7 +141,8 @@ fn soundless(liquid: Liquid, kind: (usize, KernelScene)) -> Box<dyn Stage> {
 
 /// The stage of a solid and the water, which was put into the state last.
 pub(super) fn meet(
-    (scene, of): (&Scene, &WaterScene),
+    scene: &Scene,
+    of: &WaterScene,
     law: Tait,
     solid: &Made,
     state: &mut State,

@@ -58,7 +58,8 @@ impl Skin {
         moving: &Moving<'_>,
         p: u32,
         mut dx: [f64; 3],
-        (own, mirror): ([f64; 3], &[Plane]),
+        own: [f64; 3],
+        mirror: &[Plane],
     ) -> Touch {
         let point = &self.points[p as usize];
         let cell = point.cell as usize;

@@ -86,7 +86,7 @@ impl<K: Kernel> Wet<K> {
             let pair = |p: &u32| {
                 let point = &skin.points[*p as usize];
                 let dx = [0, 1, 2].map(|k| x[k] - point.x[k]);
-                let touch = skin.touch(&moving, *p, dx, (own, mirror));
+                let touch = skin.touch(&moving, *p, dx, own, mirror);
                 let face = touch.seen(mirror, moving.velocity(&touch.place));
                 let du = [0, 1, 2].map(|k| u[k] - face[k]);
                 let r = (dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2]).sqrt();
