@@ -119,8 +119,8 @@ fn prove(lab: &Lab) -> Result<ExitCode, (String, u8)> {
     println!("the truth lies in {} of {} bands", proof.held, proof.judged);
     keep(&lab.out.join("proof.json"), &proof).map_err(|e| (e, 1))?;
     println!(
-        "half of the median band is {:.1} times the true error",
-        proof.width
+        "half of the median band is {:.3} % of the value",
+        100.0 * proof.width
     );
     for lost in &proof.lost {
         println!("no band: {lost}");

@@ -42,7 +42,7 @@ pub struct Proof {
     pub answers: Vec<Answer>,
     /// Figures without a value or a band.
     pub lost: Vec<String>,
-    /// Median of half the width of a band over the true error.
+    /// Median of half the width of a band over the exact value.
     pub width: f64,
 }
 
@@ -57,14 +57,13 @@ impl Proof {
     }
 }
 
-/// Greatest median of half the width of a band over the true error: any band would hold the truth if it were wide enough.
-const WIDEST: f64 = 30.0;
+/// Greatest median of half the width of a band over the exact value: any band would hold the truth if it were wide enough. The errors
+/// themselves are no measure, as some of these problems are solved to the last bits.
+const WIDEST: f64 = 0.01;
 
-/// Median of half the width over the error.
+/// Median of half the width over the exact value.
 fn width(answers: &[Answer]) -> f64 {
-    let of = |a: &Answer| {
-        a.certified.half_width.unwrap_or(f64::NAN) / (a.certified.value - a.exact).abs()
-    };
+    let of = |a: &Answer| a.certified.half_width.unwrap_or(f64::NAN) / a.exact.abs();
     let mut all: Vec<f64> = answers.iter().map(of).collect();
     all.sort_by(f64::total_cmp);
     all.get(all.len() / 2).copied().unwrap_or(f64::NAN)
@@ -322,14 +321,14 @@ mod tests {
             certified: Certified {
                 stage: "run".to_owned(),
                 unit: "K".to_owned(),
-                value: 1.01,
+                value: 1.001,
                 extrapolated: None,
                 half_width: Some(half),
                 scatter: None,
                 knobs: std::collections::BTreeMap::new(),
                 not_judged: Vec::new(),
             },
-            held: half > 0.01,
+            held: half > 0.001,
         };
         let proof = |answers: Vec<Answer>, lost: &[&str]| Proof {
             kind: "certificate-proof",
@@ -339,10 +338,10 @@ mod tests {
             answers,
             lost: lost.iter().map(|l| (*l).to_owned()).collect(),
         };
-        assert!(proof(vec![answer(0.02)], &[]).is_good());
-        assert!(!proof(vec![answer(0.02)], &["a c"]).is_good());
+        assert!(proof(vec![answer(0.002)], &[]).is_good());
+        assert!(!proof(vec![answer(0.002)], &["a c"]).is_good());
         assert!(
-            !proof(vec![answer(0.4)], &[]).is_good() && !proof(vec![answer(0.005)], &[]).is_good()
+            !proof(vec![answer(0.4)], &[]).is_good() && !proof(vec![answer(0.0005)], &[]).is_good()
         );
         assert!(!proof(Vec::new(), &[]).is_good());
     }
