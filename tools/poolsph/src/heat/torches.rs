@@ -190,8 +190,9 @@ impl Stage for Torches {
                     continue;
                 };
                 let stand = torch.stand(middle);
-                let here =
-                    (state.faces).part_here(stand.place, stand.axes[2], UPON * self.metal.spacing);
+                // A torch that weaves across a mirror is upon it as long as its path is.
+                let (path, near) = (torch.path.on(middle).0, UPON * self.metal.spacing);
+                let here = state.faces.part_here(path, stand.axes[2], near);
                 let energy = here * energy;
                 let inside = self.weigh(state, &torch, &stand);
                 let share = inside / here;

@@ -165,6 +165,21 @@ fn half_a_plate_beside_its_mirror_takes_half_of_a_torch_upon_it() {
 }
 
 #[test]
+fn a_torch_that_weaves_across_a_mirror_gives_half() {
+    let faces = r#"{"min_m": [0.01, -1, -1], "max_m": [1, 1, 1], "mirror": ["x-"]}"#;
+    let faces: crate::faces::Parameters = serde_json::from_str(faces).unwrap();
+    let caloric = Shared::new(plain(30.0, 500.0, None));
+    let mut half = plates(0.001, &caloric, &[([0.01, 0.0, 0.0], [0.01, 0.02, 0.01])]);
+    half.faces = faces.faces(0.002, true).unwrap();
+    let mut weaves = torch(DISC, "");
+    let weave = r#"{"amplitude_m": 0.001, "frequency_hz": 50}"#;
+    weaves.path.weave = serde_json::from_str(weave).unwrap();
+    let mut stage = Torches::new(&[weaves], caloric, half.metal.matter).unwrap();
+    stage.advance(&mut half, 0.01).unwrap();
+    assert!((stage.figures()[2].value - 3.0).abs() < 1e-9);
+}
+
+#[test]
 fn metal_behind_a_torch_takes_no_more_than_the_whole_power() {
     let mut sunk = torch(DEEP, r#", "beyond": "lost""#);
     for corner in &mut sunk.path.points_m {
