@@ -90,7 +90,7 @@ impl Case for LiquidSplit {
             [
                 Target::error("mass", 1e-3).of(*method),
                 Target::error("momentum", 1e-8).of(*method),
-                Target::error("energy_back", 1e-3).of(*method),
+                Target::error("energy_back", 1e-9).of(*method),
                 Target::error("drops", 0.0).of(*method),
                 Target::error("time_left", 1e-6).of(*method),
             ]
@@ -135,9 +135,8 @@ impl Case for LiquidSplit {
             &patch,
         )?;
         let column = |name: &str| Series::read(&run, name);
-        let (kinetic, surface) = (column("kinetic_energy")?, column("surface_energy")?);
-        let energy = kinetic.value.iter().zip(&surface.value);
-        let energy: Vec<f64> = energy.map(|(k, s)| k + s).collect();
+        let kinetic = column("kinetic_energy")?;
+        let energy = sum(&kinetic.value, &column("surface_energy")?.value);
         let volume = column("volume")?.value;
         let lost = volume.iter().map(|v| v / volume[0] - 1.0);
         let mut moved = 0.0_f64;
@@ -160,9 +159,15 @@ impl Case for LiquidSplit {
             ("time_left".to_owned(), 1.0 - last(&kinetic.time) / end),
         ]);
         let count = points(&run)?;
-        let costs = [("points", count as f64)];
+        let taken = run.closing("energy_taken");
+        let costs = [("points", count as f64), ("energy_taken", taken)];
         Ok(Measurement::of(run, count, radius / parts, errors).at_costs(costs))
     }
+}
+
+/// Sum of two series.
+fn sum(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a + b).collect()
 }
 
 /// Greatest absolute value; NaN where one is.

@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 
 use super::{column, run, said};
 
-/// Energy that may come back, volume and momentum that may be lost.
-const ENERGY: f64 = 1e-3;
+/// Energy that may come back, which is rounding, volume and momentum that may be lost.
+const ENERGY: f64 = 1e-12;
 const VOLUME: f64 = 1e-3;
 const MOMENTUM: f64 = 1e-8;
 

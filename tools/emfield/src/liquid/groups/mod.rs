@@ -11,6 +11,7 @@
 //!
 //! Volume, momentum and charge of all are kept: what comes of a change shares what there was before.
 
+mod calm;
 mod drawn;
 pub mod hull;
 mod join;
@@ -37,8 +38,9 @@ use super::vector::{along, difference, length};
 const SWELLS: usize = 2;
 /// Part of its volume below which they leave it to a change of its size.
 const EVEN: f64 = 1e-6;
-/// Such changes, and what of its size counts as rounding.
-const SCALES: usize = 6;
+/// Such changes at most: each leaves up to a third of what is lacking where parts end at a given length; and what of its size counts as
+/// rounding.
+const SCALES: usize = 40;
 const ROUNDING: f64 = 1e-13;
 /// Part of its volume beyond which it is lost.
 const LOST: f64 = 0.02;
@@ -112,6 +114,8 @@ pub struct Seen {
     pub hull: Hull,
     /// What points stand for \[m3\].
     pub volumes: Vec<f64>,
+    /// Velocity that all points were given, so that the momentum is kept \[m/s\].
+    pub pushed: [f64; 3],
 }
 
 impl Group {
@@ -153,6 +157,7 @@ impl Group {
             volumes: volumes.ok_or_else(|| failed(&"points lie in a plane"))?,
             patches,
             hull,
+            pushed: [0.0; 3],
         })
     }
 
@@ -186,7 +191,7 @@ impl Group {
         Ok(())
     }
 
-    /// Gives its points its volume, its centre and its momentum; its surface then.
+    /// Gives its points its volume, its centre and its momentum; its surface then, and the velocity that all were given.
     ///
     /// # Errors
     /// Where it has too few points.
@@ -206,9 +211,9 @@ impl Group {
             *x = along(x, 1.0, &aside);
         }
         seen.hull.centre = self.centre;
-        let lack = difference(&self.drift, &self.moves(&seen));
+        seen.pushed = difference(&self.drift, &self.moves(&seen));
         for u in &mut self.liquid.velocity {
-            *u = along(u, 1.0, &lack);
+            *u = along(u, 1.0, &seen.pushed);
         }
         Ok(seen)
     }

@@ -15,6 +15,8 @@ pub(super) struct Course {
     pub(super) volume: Option<f64>,
     /// Volume that was found last, and what all moves of the surface have put back \[the same\].
     kept: [f64; 2],
+    /// Momentum that points were given so that its sum is kept, all in absolute value \[N s\].
+    pub(super) pushed: f64,
     pub(super) effort: Effort,
     /// Steps that were divided.
     pub(super) divided: u64,
@@ -54,6 +56,7 @@ impl Course {
             .map(|volume| [volume, self.kept[0], self.kept[1]]);
         let volume: Vec<f64> = kept.into_iter().flatten().collect();
         checkpoint.put_f64("volume", &volume);
+        checkpoint.put_f64("pushed", &[self.pushed]);
         let e = &self.effort;
         checkpoint.put_f64("residual", &[e.residual]);
         let counts = [
@@ -88,6 +91,7 @@ impl Course {
         if let [volume, found, put_back] = checkpoint.f64("volume")?[..] {
             (self.volume, self.kept) = (Some(volume), [found, put_back]);
         }
+        self.pushed = checkpoint.f64("pushed")?.first().copied().unwrap_or(0.0);
         let residual = checkpoint.f64("residual")?;
         self.effort.residual = residual.first().copied().unwrap_or(0.0);
         if let [taken, divided, products, unsolved, unsettled, added, merged] =
@@ -115,6 +119,11 @@ impl Course {
                 session.warn(doubt);
             }
         }
+    }
+
+    /// Tells what points were given so that the momentum is kept.
+    pub(super) fn tell_momentum(&self, session: &mut Session) {
+        session.closing("momentum_put_back", "N s", self.pushed);
     }
 
     /// What to tell where moves of the surface have put much back.

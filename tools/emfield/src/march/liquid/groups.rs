@@ -13,7 +13,7 @@ use crate::liquid::effort::failed;
 use crate::liquid::groups::{Groups, Parcel, Rule, Seen};
 use crate::liquid::step::{Ended, Liquid, Matter, Step, Way};
 use crate::liquid::told;
-use crate::liquid::vector::along;
+use crate::liquid::vector::{along, length};
 use crate::march::steps::Steps;
 use crate::scene::{Groups as Given, Liquid as Part, LiquidMarch, Scene};
 
@@ -31,6 +31,8 @@ const QUIET: f64 = 0.4;
 /// Rise of the energy, over that at the start, that is told, and that ends a march.
 const RISEN: f64 = 0.01;
 const BURST: f64 = 1.0;
+/// What may be taken from the flow before it is told, over the same.
+const TAKEN: f64 = 0.02;
 
 /// Drops that are marched.
 pub(super) struct March {
@@ -169,8 +171,24 @@ impl March {
                 Ok(())
             })?;
             self.pull(&seen, part, session)?;
+            self.keep_down(&seen);
         }
         Ok(seen)
+    }
+
+    /// Counts the momentum that was put back. Where no field works on the drops, takes from their flow what the energies rose by.
+    fn keep_down(&mut self, seen: &[Seen]) {
+        let density = self.matter.density;
+        for (group, seen) in self.groups.drops.iter().zip(seen) {
+            self.course.pushed += density * group.volume * length(&seen.pushed);
+        }
+        if self.acting.any() {
+            return;
+        }
+        let totals = self.groups.totals(seen, &self.matter);
+        let excess = totals.energy() - self.ledger.least;
+        let taken = self.groups.calm(seen, density, excess);
+        self.ledger.calmed(totals.energy(), taken);
     }
 
     /// Moves parcels under gravity and in the applied field.
@@ -305,6 +323,7 @@ fn moved(
 impl March {
     fn close(&self, steps: &Steps, session: &mut Session) {
         self.course.close(steps, "m3", session);
+        self.course.tell_momentum(session);
         self.acting.close(&self.course.effort, session);
         session.closing("drops", "1", self.groups.drops.len() as f64);
         session.closing("parcels", "1", self.groups.parcels.len() as f64);
@@ -323,6 +342,7 @@ impl March {
                 2.0 * self.rule.part
             ));
         }
+        self.tell_taken(session);
         let risen = self.ledger.risen();
         session.closing("energy_rise", "1", risen);
         if risen > RISEN {
@@ -333,6 +353,21 @@ impl March {
         }
         for doubt in self.course.effort.doubts() {
             session.warn(doubt);
+        }
+    }
+
+    /// Tells what was taken from the flow so that the energies do not rise.
+    fn tell_taken(&self, session: &mut Session) {
+        if self.acting.any() {
+            return;
+        }
+        let taken = self.ledger.taken();
+        session.closing("energy_taken", "1", taken);
+        if taken > TAKEN {
+            session.warn(format!(
+                "{:.1} % of the energies at first was taken from the flow, since new points and fits had added it: take a smaller spacing",
+                100.0 * taken
+            ));
         }
     }
 }

@@ -28,6 +28,8 @@ pub(super) struct Ledger {
     /// Work of fields so far \[J\], and their power \[W\].
     pub(super) work: f64,
     pub(super) power: f64,
+    /// Energy that was taken from the flow so that the sum does not rise \[J\].
+    pub(super) calmed: f64,
 }
 
 impl Ledger {
@@ -46,6 +48,21 @@ impl Ledger {
     pub(super) fn work(&mut self, power: f64, dt: f64) {
         self.work += 0.5 * dt * (self.power + power);
         self.power = power;
+    }
+
+    /// Notes the energy of a part of a step of drops without a field, and what was taken of it.
+    pub(super) fn calmed(&mut self, energy: f64, taken: f64) {
+        self.least = self.least.min(energy - taken);
+        self.calmed += taken;
+    }
+
+    /// What was taken from the flow, over the energy at the start.
+    pub(super) fn taken(&self) -> f64 {
+        if self.first > 0.0 {
+            self.calmed / self.first
+        } else {
+            0.0
+        }
     }
 
     /// Rise of the energy over that at the start.

@@ -26,7 +26,7 @@ use crate::liquid::passing::Passing;
 use crate::liquid::step::{Ended, Liquid, Matter, Step, Way};
 use crate::liquid::surface::{Patch, patches};
 use crate::liquid::told::{self, Totals};
-use crate::liquid::vector::{along, difference};
+use crate::liquid::vector::{along, difference, length};
 use crate::march::steps::Steps;
 use crate::scene::{Liquid as Part, LiquidMarch, Scene};
 
@@ -275,6 +275,7 @@ impl March {
                 for u in &mut liquid.velocity {
                     *u = along(u, 1.0, &lack);
                 }
+                self.course.pushed += self.matter.density * volume * length(&lack);
             }
         }
         let before = totals.volume;
@@ -373,6 +374,7 @@ impl March {
 
     fn close(&self, liquid: &Liquid<3>, steps: &Steps, session: &mut Session) {
         self.course.close(steps, "m3", session);
+        self.course.tell_momentum(session);
         self.acting.close(&self.course.effort, session);
         if let Some(heat) = &self.heat {
             heat.close(session);

@@ -31,8 +31,10 @@ impl March {
             strewn,
             work,
             power,
+            calmed,
         } = self.ledger;
-        checkpoint.put_f64("ledger", &[first, least, rise, strewn, work, power]);
+        let ledger = [first, least, rise, strewn, work, power, calmed];
+        checkpoint.put_f64("ledger", &ledger);
         let kept = drops.iter().map(Group::parcel);
         let numbers = kept.chain(parcels.iter().copied()).flat_map(|p| {
             let ([x, y, z], [a, b, c]) = (p.centre, p.drift);
@@ -57,7 +59,7 @@ impl March {
                 taken,
             };
         }
-        if let [first, least, rise, strewn, work, power] = checkpoint.f64("ledger")?[..] {
+        if let [first, least, rise, strewn, work, power, calmed] = checkpoint.f64("ledger")?[..] {
             self.ledger = Ledger {
                 first,
                 least,
@@ -65,6 +67,7 @@ impl March {
                 strewn,
                 work,
                 power,
+                calmed,
             };
         }
         let sizes = checkpoint.u64("sizes")?;
