@@ -32,6 +32,8 @@ pub struct Instant {
 
 /// Shells.
 const SHELLS: usize = 150;
+/// Rounds of Newton's method for the temperature of the surface.
+const ROUNDS: usize = 8;
 /// Part of the longest stable step.
 const STEP: f64 = 0.4;
 
@@ -73,6 +75,17 @@ impl Ball {
         found
     }
 
+    /// Temperature of the surface, where what leaves is conducted from the middle of the last shell \[K\].
+    fn skin(&self, last: f64) -> f64 {
+        let across = 0.5 * self.radius / SHELLS as f64 / self.conductivity;
+        let mut t = last;
+        for _ in 0..ROUNDS {
+            let lack = t - last + across * self.radiated(t);
+            t -= lack / (1.0 + across * 4.0 * self.radiation[0] * t.powi(3));
+        }
+        t
+    }
+
     /// Heat that leaves the surface \[W/m2\].
     fn radiated(&self, t: f64) -> f64 {
         let [a, far] = self.radiation;
@@ -85,7 +98,7 @@ impl Ball {
         for k in 0..SHELLS {
             let r = thick * (k + 1) as f64;
             let outward = if k + 1 == SHELLS {
-                r * r * self.radiated(t[k])
+                r * r * self.radiated(self.skin(t[k]))
             } else {
                 r * r * self.conductivity * (t[k] - t[k + 1]) / thick
             };
@@ -103,11 +116,10 @@ impl Ball {
             each.map(|(h, v)| v * of(*h)).sum::<f64>() / whole
         };
         let last = self.temperature(enthalpy[SHELLS - 1]);
-        let half = 0.5 * self.radius / SHELLS as f64;
         Instant {
             mean: mean(&|h| self.temperature(h)),
             middle: self.temperature(enthalpy[0]),
-            surface: last - half * self.radiated(last) / self.conductivity,
+            surface: self.skin(last),
             molten: mean(&|h| ((h - self.specific * point) / latent).clamp(0.0, 1.0)),
         }
     }
@@ -144,5 +156,25 @@ mod tests {
         let found = ball.at(&[0.01, 20.0], 300.0, |_| 0.0);
         assert!(found[0].surface < found[0].middle && found[0].molten > 0.5);
         assert!((found[1].mean - 100.0).abs() < 1.0 && found[1].molten < 1e-12);
+    }
+
+    #[test]
+    fn a_ball_in_a_hot_room_is_as_warm_on_its_surface_as_a_layer_conducts() {
+        let ball = Ball {
+            radius: 1.0,
+            density: 1.0,
+            specific: 1.0,
+            conductivity: 0.1,
+            radiation: [1e-8, 1000.0],
+            melting: [1e9, 1.0],
+        };
+        // What the room gives is conducted across half a shell.
+        let (last, half) = (500.0, 0.5 / SHELLS as f64);
+        let t = ball.skin(last);
+        let given = -ball.radiated(t);
+        assert!(
+            given > 0.0 && (given * half / ball.conductivity - (t - last)).abs() < 1e-9,
+            "{t}"
+        );
     }
 }

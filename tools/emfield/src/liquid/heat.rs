@@ -1,20 +1,20 @@
 //! Heat in a liquid and through its surface, with melting, by the enthalpy H of a mass.
 //!
 //! ```text
-//! rho dH/dt = k div grad T + q + rho ((w - u) . grad) H,      -k dT/dn = a (T^4 - T_far^4) on the surface
+//! rho V_i dH_i/dt = sum_j k A_ij/d_ij (T_j - T_i) + Q_i + rho V_i ((w - u) . grad) H - A_i a (T^4 - T_far^4)
 //! T = H/c below the melting point T_m, T_m from c T_m to c T_m + L, (H - L)/c beyond
 //! ```
 //!
-//! for points that move at w, in the two stages of Alexander (see [`super::step`]). Each is solved for H by Newton's method: `dT/dH`
-//! is 0 where something melts and 1/c elsewhere, so that a sharp melting point needs no interval. Fits conserve no heat: what
-//! is lost or won by them is put back evenly, and told.
+//! for points that move at w, with the parts of the drop that belong to them ([`super::parts`]), in the two stages of Alexander (see
+//! [`super::step`]). Each is solved for H by Newton's method: `dT/dH` is 0 where something melts and 1/c elsewhere, so that a sharp
+//! melting point needs no interval. What one part gives another takes: conduction keeps the heat, however sharp its bends are.
 
 use krylov::{Keep, Method, Options, Rows, Rule, System};
 use rayon::prelude::*;
 use run::Failure;
-use wls::Stencils;
 
 use super::effort::{Effort, failed};
+use super::parts::Parts;
 use super::step::PART;
 
 /// Rounds of Newton's method, and the residual over the greatest enthalpy that ends them.
@@ -88,51 +88,44 @@ impl Warmth {
         let [a, far] = self.radiation.unwrap_or_default();
         a * (temperature.powi(4) - far.powi(4))
     }
-}
 
-/// Where heat flows: rows of the Laplacian inside, and on the surface with the slope along the normal as a datum.
-pub struct Ground<'a, const D: usize> {
-    /// Inside.
-    pub inside: &'a Stencils<D>,
-    /// On the surface, whose points come first.
-    pub surface: &'a Stencils<D>,
-    /// Number of points on the surface.
-    pub on: usize,
-}
+    /// How that grows with the temperature \[W/(m2 K)\].
+    fn steeper(&self, temperature: f64) -> f64 {
+        let [a, _] = self.radiation.unwrap_or_default();
+        4.0 * a * temperature.powi(3)
+    }
 
-impl<const D: usize> Ground<'_, D> {
-    /// `div grad T`, with `slope(i)` along the normal on the surface \[K/m2\].
-    fn laplacian(&self, i: usize, t: &[f64], slope: impl Fn(usize) -> f64) -> f64 {
-        if i < self.on {
-            let row = self.surface.laplacian(i);
-            row.apply(t) + row.conditions().sum::<f64>() * slope(i)
-        } else {
-            self.inside.laplacian(i).apply(t)
-        }
+    /// Heat that leaves the surface of all parts \[W\].
+    #[must_use]
+    pub fn leaves(&self, parts: &Parts, enthalpy: &[f64]) -> f64 {
+        let each = parts.area.iter().zip(enthalpy);
+        let each = each.map(|(area, h)| area * self.radiated(self.temperature(*h)));
+        each.sum()
     }
 }
 
 /// What a step adds beside conduction.
 #[derive(Debug, Clone, Copy)]
 pub struct Added<'a> {
-    /// Heat by point \[W/m3\]; nothing where there is none.
+    /// Power by point \[W\]; nothing where there is none.
     pub heat: &'a [f64],
     /// `rho ((w - u) . grad) H` by point, of the surface first \[W/m3\]; nothing where points go with the liquid.
     pub drift: &'a [f64],
 }
 
 impl Added<'_> {
-    fn at(&self, i: usize) -> f64 {
+    /// What a part of some volume takes of it \[W\].
+    fn at(&self, i: usize, volume: f64) -> f64 {
         let of = |all: &[f64]| all.get(i).copied().unwrap_or(0.0);
-        of(self.heat) + of(self.drift)
+        of(self.heat) + volume * of(self.drift)
     }
 }
 
 /// How heat goes for a while.
 #[derive(Clone, Copy)]
-pub struct Flow<'a, const D: usize> {
-    /// Where.
-    pub ground: &'a Ground<'a, D>,
+pub struct Flow<'a> {
+    /// Parts of the drop, by point.
+    pub parts: &'a Parts,
     /// Beside conduction.
     pub added: Added<'a>,
     /// When solves end.
@@ -141,16 +134,25 @@ pub struct Flow<'a, const D: usize> {
     pub dt: f64,
 }
 
+/// What a step makes of heat.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Warmed {
+    /// By point \[J/kg\].
+    pub enthalpy: Vec<f64>,
+    /// What has left the surface \[J\].
+    pub radiated: f64,
+}
+
 /// Enthalpies of the points of a liquid at the end of a step.
 ///
 /// # Errors
 /// Where the equations have no solution.
-pub fn warmed<const D: usize>(
+pub fn warmed(
     warmth: &Warmth,
-    flow: Flow<'_, D>,
+    flow: Flow<'_>,
     enthalpy: &[f64],
     effort: &mut Effort,
-) -> Result<Vec<f64>, Failure> {
+) -> Result<Warmed, Failure> {
     let tau = PART * flow.dt;
     let part = Flow { dt: tau, ..flow };
     let first = stage(warmth, part, enthalpy, enthalpy, effort)?;
@@ -159,36 +161,31 @@ pub fn warmed<const D: usize>(
     let base: Vec<f64> = (enthalpy.iter().zip(&first))
         .map(|(h, end)| h + rest * (end - h))
         .collect();
-    stage(warmth, part, &base, &first, effort)
+    let end = stage(warmth, part, &base, &first, effort)?;
+    let leaves = |enthalpy: &[f64]| warmth.leaves(flow.parts, enthalpy);
+    Ok(Warmed {
+        radiated: (flow.dt - tau) * leaves(&first) + tau * leaves(&end),
+        enthalpy: end,
+    })
 }
 
-/// `rho (H - H_base) = tau (k div grad T(H) + q)`.
-fn stage<const D: usize>(
+/// `rho V (H - H_base) = tau Q(H)`, with the heat Q that parts take.
+fn stage(
     warmth: &Warmth,
-    flow: Flow<'_, D>,
+    flow: Flow<'_>,
     base: &[f64],
     guess: &[f64],
     effort: &mut Effort,
 ) -> Result<Vec<f64>, Failure> {
-    let Flow {
-        ground,
-        added,
-        rule,
-        dt: tau,
-    } = flow;
-    let share = tau / warmth.density;
-    let (n, k) = (base.len(), warmth.conductivity);
     let most = base.iter().fold(0.0_f64, |m, h| m.max(h.abs()));
     let mut now = guess.to_vec();
     for _ in 0..ROUNDS {
         let t: Vec<f64> = now.iter().map(|h| warmth.temperature(*h)).collect();
-        let slope = |i: usize| -warmth.radiated(t[i]) / k;
-        let lack: Vec<f64> = (0..n)
-            .into_par_iter()
-            .map(|i| {
-                let flow = k * ground.laplacian(i, &t, slope) + added.at(i);
-                base[i] + share * flow - now[i]
-            })
+        let taken = (0..base.len()).into_par_iter();
+        let taken = taken.map(|i| flow.share(warmth, i) * flow.takes(warmth, &t, i));
+        let lack: Vec<f64> = taken
+            .enumerate()
+            .map(|(i, gain)| base[i] + gain - now[i])
             .collect();
         let worst = lack.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
         if !worst.is_finite() {
@@ -197,35 +194,54 @@ fn stage<const D: usize>(
         if worst <= SETTLED * most {
             return Ok(now);
         }
-        let bent: Vec<f64> = now.iter().map(|h| warmth.slope(*h)).collect();
-        let matrix = Rows::gathered(n, 0.0, |i, row| {
-            row.push((i as u32, 1.0));
-            let rows = if i < ground.on {
-                ground.surface.laplacian(i)
-            } else {
-                ground.inside.laplacian(i)
-            };
-            let flows = rows.iter();
-            row.extend(flows.map(|(j, w)| (j as u32, -share * k * w * bent[j])));
-            if let Some([a, _]) = warmth.radiation.filter(|_| i < ground.on) {
-                let data: f64 = rows.conditions().sum();
-                row.push((i as u32, share * data * 4.0 * a * t[i].powi(3) * bent[i]));
-            }
-        });
         let options = Options {
             method: Method::Incomplete(Keep::PATTERN),
             ..Options::default()
         };
+        let matrix = flow.matrix(warmth, &now, &t);
         let mut system = System::new(matrix, Vec::new(), options).map_err(|e| failed(&e))?;
         let sides: Vec<[f64; 1]> = lack.iter().map(|r| [*r]).collect();
-        let mut change = vec![[0.0; 1]; n];
-        effort.add(&system.solve(&sides, &mut change, rule))?;
+        let mut change = vec![[0.0; 1]; base.len()];
+        effort.add(&system.solve(&sides, &mut change, flow.rule))?;
         for (h, [c]) in now.iter_mut().zip(&change) {
             *h += c;
         }
     }
     effort.unsettled += 1;
     Ok(now)
+}
+
+impl Flow<'_> {
+    /// Time over the mass of a part \[s/kg\].
+    fn share(&self, warmth: &Warmth, i: usize) -> f64 {
+        self.dt / (warmth.density * self.parts.volume[i])
+    }
+
+    /// Heat that a part takes \[W\].
+    fn takes(&self, warmth: &Warmth, t: &[f64], i: usize) -> f64 {
+        let faces = self.parts.faces[i].iter();
+        let flows = faces.map(|face| face.reach * (t[face.other as usize] - t[i]));
+        let area = self.parts.area.get(i).copied().unwrap_or(0.0);
+        let added = self.added.at(i, self.parts.volume[i]);
+        warmth.conductivity * flows.sum::<f64>() + added - area * warmth.radiated(t[i])
+    }
+
+    /// What enthalpies change in the equations of a stage.
+    fn matrix(&self, warmth: &Warmth, enthalpy: &[f64], t: &[f64]) -> Rows<f64> {
+        let bent: Vec<f64> = enthalpy.iter().map(|h| warmth.slope(*h)).collect();
+        Rows::gathered(bent.len(), 0.0, |i, row| {
+            let share = self.share(warmth, i);
+            let mut own = 0.0;
+            for face in &self.parts.faces[i] {
+                let flow = share * warmth.conductivity * face.reach;
+                own += flow * bent[i];
+                row.push((face.other, -flow * bent[face.other as usize]));
+            }
+            let area = self.parts.area.get(i).copied().unwrap_or(0.0);
+            own += share * area * warmth.steeper(t[i]) * bent[i];
+            row.push((i as u32, 1.0 + own));
+        })
+    }
 }
 
 #[cfg(test)]

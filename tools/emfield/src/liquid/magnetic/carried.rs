@@ -15,10 +15,14 @@ use nalgebra::{DMatrix, DVector};
 use neighbours::Tree;
 use num_complex::Complex;
 use rayon::prelude::*;
+use run::Failure;
 
 use super::mould::within;
 use crate::liquid::air::Place;
+use crate::liquid::effort::failed;
+use crate::liquid::matter::Way;
 use crate::liquid::outline::{Outline, harmonics};
+use crate::liquid::renew::valued;
 use crate::liquid::surface::tangents;
 use crate::liquid::vector::{along, difference, direction, dot, length};
 use crate::magnetic::source::MU0;
@@ -48,7 +52,7 @@ pub struct Act {
     pub phi: Vec<f64>,
     /// The pull along field lines, by point \[N/m3\].
     pub pull: Vec<[f64; 3]>,
-    /// Heat of currents, by point \[W/m3\]; nothing where it is not asked for.
+    /// Power of currents, by point \[W\]; nothing where it is not asked for.
     pub heat: Vec<f64>,
 }
 
@@ -114,7 +118,10 @@ impl Flux<'_> {
     }
 
     /// What acts on a liquid whose points are here.
-    pub(super) fn act(&self, place: Place<'_>) -> Act {
+    ///
+    /// # Errors
+    /// Where the heat of its points has no fit.
+    pub(super) fn act(&self, place: Place<'_>) -> Result<Act, Failure> {
         let [on, inside] = within(self.region);
         let mut local = vec![Local::default(); self.region.len()];
         let all: Vec<usize> = on.iter().chain(&inside).copied().collect();
@@ -141,39 +148,37 @@ impl Flux<'_> {
             let values = harmonics(self.degree(), &n);
             terms.iter().zip(&values[1..]).map(|(c, y)| c * y).sum()
         };
-        Act {
+        Ok(Act {
             phi: place.skin.place.iter().map(phi).collect(),
             pressure: both.clone().map(|c| c[0]).collect(),
             pull: both.map(|c| [c[1], c[2], c[3]]).collect(),
-            heat: self
-                .heat
-                .map_or_else(Vec::new, |heat| self.warms(&all, heat, place)),
-        }
+            heat: match self.heat {
+                Some(heat) => self.warms(&all, heat, place)?,
+                None => Vec::new(),
+            },
+        })
     }
 
-    /// Heat at points of the liquid: the mean over the points of the field that are nearest to each, which resolve the skin.
-    fn warms(&self, all: &[usize], heat: &[f64], place: Place<'_>) -> Vec<f64> {
+    /// Power of points of the liquid \[W\]: that of the points of the field, which resolve the skin, goes to those about them by
+    /// the weights of linear fits. So its sum stays, and so does its depth: a surface point does not take it all.
+    fn warms(&self, all: &[usize], heat: &[f64], place: Place<'_>) -> Result<Vec<f64>, Failure> {
         let points = [place.skin.place, place.inside].concat();
-        let tree = Tree::new(&points);
-        let (_, weights) = self.force;
-        let mut sums = vec![[0.0; 2]; points.len()];
-        for &i in all {
-            if let Some(own) = tree.nearest(self.region.places[i]) {
-                sums[own] = along(&sums[own], weights[i], &[heat[i], 1.0]);
+        let stand: Vec<[f64; 3]> = all.iter().map(|i| self.region.places[*i]).collect();
+        let way = Way {
+            spacing: place.skin.spacing,
+            order: 1,
+            tolerance: 0.0,
+            products: 0,
+        };
+        let rows = valued(&points, &stand, &way).map_err(|e| failed(&e))?;
+        let (_, volumes) = self.force;
+        let mut power = vec![0.0; points.len()];
+        for (k, &i) in all.iter().enumerate() {
+            for (j, weight) in rows.value(k).iter() {
+                power[j] += weight * heat[i] * volumes[i];
             }
         }
-        let stand: Vec<[f64; 3]> = all.iter().map(|i| self.region.places[*i]).collect();
-        let field = Tree::new(&stand);
-        let nearest = |x: &[f64; 3]| field.nearest(*x).map_or(0.0, |k| heat[all[k]]);
-        let each = sums.iter().zip(&points);
-        each.map(|([q, volume], x)| {
-            if *volume > 0.0 {
-                q / volume
-            } else {
-                nearest(x)
-            }
-        })
-        .collect()
+        Ok(power)
     }
 
     fn degree(&self) -> usize {

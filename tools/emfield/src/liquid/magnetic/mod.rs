@@ -213,7 +213,7 @@ impl Magnetic {
             outline,
             rate: C::new(0.0, drive.omega * self.conductors.mu_sigma[1]),
         };
-        Ok(flux.act(place))
+        flux.act(place)
     }
 
     /// A place where the outline holds a wire of a coil.

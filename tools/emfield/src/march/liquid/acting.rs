@@ -23,7 +23,7 @@ pub(crate) struct Acting {
     factor: f64,
     /// What the field adds to the pressure that the liquid carries, by point \[Pa\].
     pub(crate) pressure: Vec<f64>,
-    /// Heat of currents, by point \[W/m3\]; nothing where the scene has no heat.
+    /// Power of currents, by point \[W\]; nothing where the scene has no heat.
     pub(crate) heat: Vec<f64>,
     /// Greatest current through the surface so far, over that along it.
     through: f64,

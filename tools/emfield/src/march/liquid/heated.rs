@@ -7,9 +7,9 @@ use wls::Stencils;
 
 use super::acting::Acting;
 use crate::liquid::drift::{self, Fitted};
-use crate::liquid::effort::{Effort, failed};
-use crate::liquid::heat::{Added, Flow, Ground, Melting, Warmth, warmed};
-use crate::liquid::operators::{operators, sloped};
+use crate::liquid::effort::Effort;
+use crate::liquid::heat::{Added, Flow, Melting, Warmed, Warmth, warmed};
+use crate::liquid::parts::Parts;
 use crate::liquid::step::{Ended, Liquid, Step};
 use crate::liquid::surface::Patch;
 use crate::liquid::told::Totals;
@@ -28,20 +28,22 @@ pub(crate) struct Heated {
     pub(crate) still: bool,
     /// By point \[J/kg\].
     enthalpy: Vec<f64>,
-    /// Rows of a drop that stands still.
-    rows: Option<[Stencils<3>; 2]>,
-    /// What points stand for \[m3\], and all of them \[m3\].
-    volumes: (Vec<f64>, f64),
+    /// Parts of the drop that belong to its points, as they were when heat flowed last.
+    parts: Option<Parts>,
+    /// Volumes of these parts \[m3\].
+    volumes: Vec<f64>,
+    /// Volume \[m3\] and area of the drop \[m2\].
+    size: [f64; 2],
     /// Heat that there is by what came and went \[J\]; none before it is counted.
     heat: Option<f64>,
+    /// Heat that came since it was counted last, less what went \[J\].
+    came: f64,
     /// Heat that came and went, and what fits lost and was put back, all in absolute value \[J\].
     passed: f64,
     put_back: f64,
     /// Power of currents, and what the surface radiates \[W\].
     power: f64,
     radiated: f64,
-    /// Time since they were counted last \[s\].
-    since: f64,
     /// Whether something froze.
     froze: bool,
 }
@@ -80,14 +82,15 @@ impl Heated {
             warmth,
             still: given.still,
             enthalpy,
-            rows: None,
-            volumes: (Vec::new(), 0.0),
+            parts: None,
+            volumes: Vec::new(),
+            size: [0.0; 2],
             heat: None,
+            came: 0.0,
             passed: 0.0,
             put_back: 0.0,
             power: 0.0,
             radiated: 0.0,
-            since: 0.0,
             froze: false,
         };
         if !heated.still && heated.frozen() {
@@ -114,24 +117,14 @@ impl Heated {
         step: Step<'_>,
         effort: &mut Effort,
     ) -> Result<(), Failure> {
-        if self.rows.is_none() {
-            let inside = operators(&liquid.position, step.way).map_err(|e| failed(&e))?;
-            let surface = sloped(&liquid.position, patches, step.way, false);
-            let surface = surface.map_err(|e| failed(&e))?;
-            self.rows = Some([inside, surface]);
-        }
-        if let Some([inside, surface]) = self.rows.take() {
-            let on = patches.len();
-            let ground = Ground {
-                inside: &inside,
-                surface: &surface,
-                on,
-            };
-            let made = self.march(&ground, &[], acting, step, effort);
-            self.rows = Some([inside, surface]);
-            made?;
-        }
-        Ok(())
+        let parts = self.parts.take();
+        let parts = parts.unwrap_or_else(|| self.cut(liquid, patches, step.way.spacing));
+        self.march(parts, &[], acting, step, effort)
+    }
+
+    /// Parts of the drop as it is.
+    fn cut(&self, liquid: &Liquid<3>, patches: &[Patch<3>], spacing: f64) -> Parts {
+        Parts::new(&liquid.position, patches, spacing, self.size)
     }
 
     /// Heat flows for a step in a drop that has moved.
@@ -153,7 +146,6 @@ impl Heated {
             rows,
             ..
         } = ended;
-        let surface = sloped(&liquid.position, patches, way, false).map_err(|e| failed(&e))?;
         let density = self.warmth.density;
         let field: Vec<[f64; 1]> = self.enthalpy.iter().map(|h| [density * h]).collect();
         let back = |i: usize| difference(&moved[i], &liquid.velocity[i]);
@@ -166,19 +158,15 @@ impl Heated {
             let inside = patches.len()..field.len();
             drift.extend(drift::inside(fitted, &field, back, inside, way.spacing));
         }
-        let ground = Ground {
-            inside: rows,
-            surface: &surface,
-            on: patches.len(),
-        };
-        self.march(&ground, drift.as_flattened(), acting, step, effort)?;
+        let parts = self.cut(liquid, patches, way.spacing);
+        self.march(parts, drift.as_flattened(), acting, step, effort)?;
         self.froze |= self.frozen();
         Ok(())
     }
 
     fn march(
         &mut self,
-        ground: &Ground<'_, 3>,
+        parts: Parts,
         drift: &[f64],
         acting: &Acting,
         step: Step<'_>,
@@ -186,20 +174,23 @@ impl Heated {
     ) -> Result<(), Failure> {
         let mut heat = acting.heat.clone();
         self.power = acting.power();
-        let (volumes, _) = &self.volumes;
-        let whole: f64 = heat.iter().zip(volumes).map(|(q, v)| q * v).sum();
+        let whole: f64 = heat.iter().sum();
         if whole > 0.0 {
             heat.iter_mut().for_each(|q| *q *= self.power / whole);
         }
-        let added = Added { heat: &heat, drift };
         let flow = Flow {
-            ground,
-            added,
+            parts: &parts,
+            added: Added { heat: &heat, drift },
             rule: step.way.rule(),
             dt: step.dt,
         };
-        self.enthalpy = warmed(&self.warmth, flow, &self.enthalpy, effort)?;
-        self.since += step.dt;
+        let Warmed { enthalpy, radiated } = warmed(&self.warmth, flow, &self.enthalpy, effort)?;
+        self.radiated = self.warmth.leaves(&parts, &enthalpy);
+        self.came += step.dt * self.power - radiated;
+        self.passed += step.dt * self.power + radiated.abs();
+        self.enthalpy = enthalpy;
+        self.volumes.clone_from(&parts.volume);
+        self.parts = Some(parts);
         Ok(())
     }
 
@@ -214,37 +205,35 @@ impl Heated {
         }
     }
 
-    /// Counts the heat, and puts back evenly what fits have lost of it.
-    pub(crate) fn keep(&mut self, totals: &Totals, patches: &[Patch<3>]) {
-        self.volumes = (totals.volumes.clone(), totals.volume);
-        let each = self.enthalpy.iter().zip(&totals.volumes);
+    /// Counts the heat, and puts back evenly what was lost of it where liquid passed points.
+    pub(crate) fn keep(
+        &mut self,
+        totals: &Totals,
+        liquid: &Liquid<3>,
+        patches: &[Patch<3>],
+        spacing: f64,
+    ) {
+        self.size = [totals.volume, totals.area];
+        let start = self.heat.is_none();
+        if start {
+            let parts = self.cut(liquid, patches, spacing);
+            self.radiated = self.warmth.leaves(&parts, &self.enthalpy);
+            self.volumes = parts.volume;
+        }
+        let each = self.enthalpy.iter().zip(&self.volumes);
         let there = self.warmth.density * each.map(|(h, v)| h * v).sum::<f64>();
-        let radiates =
-            |(p, h): (&Patch<3>, &f64)| p.area * self.warmth.radiated(self.warmth.temperature(*h));
-        let areas: f64 = patches.iter().map(|p| p.area).sum();
-        let all: f64 = patches.iter().zip(&self.enthalpy).map(radiates).sum();
-        let radiated = if areas > 0.0 {
-            all * totals.area / areas
-        } else {
-            0.0
-        };
-        let Some(before) = self.heat else {
-            (self.heat, self.radiated) = (Some(there), radiated);
-            return;
-        };
-        let came = self.since * (self.power - 0.5 * (self.radiated + radiated));
-        let lack = before + came - there;
+        let wanted = self.heat.map_or(there, |before| before + self.came);
+        let lack = wanted - there;
         let share = lack / (self.warmth.density * totals.volume);
         self.enthalpy.iter_mut().for_each(|h| *h += share);
-        self.passed += self.since * (self.power + 0.5 * (self.radiated + radiated).abs());
         self.put_back += lack.abs();
-        (self.heat, self.radiated, self.since) = (Some(before + came), radiated, 0.0);
+        (self.heat, self.came) = (Some(wanted), 0.0);
     }
 
     /// Adds what heat does to a row.
     pub(crate) fn row(&self, record: Record) -> Record {
         let t = |h: &f64| self.warmth.temperature(*h);
-        let (volumes, volume) = &self.volumes;
+        let ([volume, _], volumes) = (self.size, &self.volumes);
         let mean = |of: &dyn Fn(&f64) -> f64| {
             let each = self.enthalpy.iter().zip(volumes);
             each.map(|(h, v)| v * of(h)).sum::<f64>() / volume
@@ -288,17 +277,18 @@ impl Heated {
 
     pub(crate) fn save(&self, checkpoint: &mut Checkpoint) {
         checkpoint.put_f64("enthalpy", &self.enthalpy);
-        checkpoint.put_f64("heat_volumes", &self.volumes.0);
+        checkpoint.put_f64("heat_volumes", &self.volumes);
         let heat: Vec<f64> = self.heat.into_iter().collect();
         checkpoint.put_f64("heat", &heat);
         let froze = f64::from(u8::from(self.froze));
         let all = [
-            self.volumes.1,
+            self.size[0],
+            self.size[1],
+            self.came,
             self.passed,
             self.put_back,
             self.power,
             self.radiated,
-            self.since,
             froze,
         ];
         checkpoint.put_f64("heat_counts", &all);
@@ -306,14 +296,14 @@ impl Heated {
 
     pub(crate) fn restore(&mut self, checkpoint: &mut Checkpoint) -> Result<(), Failure> {
         self.enthalpy = checkpoint.f64("enthalpy")?;
-        self.volumes.0 = checkpoint.f64("heat_volumes")?;
+        self.volumes = checkpoint.f64("heat_volumes")?;
         self.heat = checkpoint.f64("heat")?.first().copied();
-        if let [volume, passed, put_back, power, radiated, since, froze] =
+        if let [volume, area, came, passed, put_back, power, radiated, froze] =
             checkpoint.f64("heat_counts")?[..]
         {
-            self.volumes.1 = volume;
+            (self.size, self.came) = ([volume, area], came);
             (self.passed, self.put_back, self.power) = (passed, put_back, power);
-            (self.radiated, self.since, self.froze) = (radiated, since, froze > 0.0);
+            (self.radiated, self.froze) = (radiated, froze > 0.0);
         }
         Ok(())
     }

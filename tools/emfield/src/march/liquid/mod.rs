@@ -284,7 +284,7 @@ impl March {
             self.centre = totals.centre;
             let mut row = self.acting.row(totals.row(&self.matter, &outline));
             if let Some(heat) = &mut self.heat {
-                heat.keep(&totals, patches);
+                heat.keep(&totals, liquid, patches, self.way.spacing);
                 row = heat.row(row);
             }
             session.record("/liquid", time, &row)?;
