@@ -3,6 +3,7 @@
 use artefact::Reader;
 use serde_json::{Value, json};
 
+use super::stretched::{pressed, renewed};
 use super::{column, drop, run, said};
 
 /// A ball that stands still, so well conducting that it is as warm everywhere, in surroundings of another temperature.
@@ -79,4 +80,20 @@ fn what_is_not_molten_must_stand_still() {
     scene["liquid"]["march"] = json!({"end_s": 1.0});
     let (code, text, _) = said(folder.path(), &scene, "1");
     assert!(code == 2 && text.contains("step_s"), "{text}");
+}
+
+#[test]
+fn points_that_come_and_merge_are_as_warm_as_those_about_them() {
+    let mut scene = pressed();
+    scene["liquid"]["heat"] = json!({"specific_heat_j_kg_k": 800, "thermal_conductivity_w_m_k": 0.5,
+        "temperature_k": {"expr": "350 + 1e4*z"}});
+    let folder = tempfile::tempdir().unwrap();
+    let reader = run(folder.path(), &scene);
+    let [added, merged] = renewed(folder.path(), "drop-2.run.json");
+    assert!(added > 0 && merged > 0, "{added} {merged}");
+    let [heat, low, high] =
+        ["heat", "temperature_lowest", "temperature_highest"].map(|name| column(&reader, name));
+    let (first, last) = (heat[0].1, heat.last().unwrap().1);
+    assert!((last / first - 1.0).abs() < 1e-12, "{first:e} {last:e}");
+    assert!(low.last().unwrap().1 > 339.0 && high.last().unwrap().1 < 361.0);
 }

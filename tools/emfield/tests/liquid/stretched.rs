@@ -27,7 +27,7 @@ fn spheroid(radius: f64, ratio: f64, ohnesorge: f64, periods: f64) -> Value {
 }
 
 /// How many points came and merged in the run whose record is in a folder.
-fn renewed(folder: &Path, name: &str) -> [u64; 2] {
+pub(super) fn renewed(folder: &Path, name: &str) -> [u64; 2] {
     let text = std::fs::read_to_string(folder.join(name)).unwrap();
     let record: Value = serde_json::from_str(&text).unwrap();
     ["points_added", "points_merged"].map(|name| {
@@ -87,7 +87,7 @@ fn a_large_drop_whose_points_crowd_holds_in_half_steps() {
 }
 
 /// A drop of four spacings a radius that flattens at once, so that points come in few steps.
-fn pressed() -> Value {
+pub(super) fn pressed() -> Value {
     let mut scene = drop(1e-3, 1000.0, 0.072, 0.4);
     let time = (1000.0 * 1e-9 / 0.072_f64).sqrt();
     let speed = 1.2 / time;
@@ -98,6 +98,24 @@ fn pressed() -> Value {
     scene["liquid"]["viscosity_pa_s"] = json!(0.05 * (1000.0_f64 * 0.072 * 1e-3).sqrt());
     scene["points"]["spacing_m"] = json!(2.5e-4);
     scene
+}
+
+#[test]
+fn points_come_and_merge_in_a_weak_field_as_without_one() {
+    let mut scene = pressed();
+    let ends = [
+        Value::Null,
+        json!({"relative_permittivity": 80, "field_v_m": [0, 0, 1e3]}),
+    ]
+    .map(|field| {
+        let folder = tempfile::tempdir().unwrap();
+        scene["liquid"]["electric"] = field;
+        let reader = run(folder.path(), &scene);
+        let [added, merged] = renewed(folder.path(), "drop-2.run.json");
+        assert!(added > 0 && merged > 0, "{added} {merged}");
+        column(&reader, "axis_ratio").last().unwrap().1
+    });
+    assert!((ends[1] / ends[0] - 1.0).abs() < 0.02, "{ends:?}");
 }
 
 #[test]

@@ -105,10 +105,18 @@ impl<const D: usize> Liquid<D> {
     /// # Errors
     /// Where the values of new points have no fit.
     pub fn renew(&mut self, way: &Way) -> Result<Renewed, Failure> {
+        self.renew_with(way, &mut Vec::new())
+    }
+
+    /// Lets points merge and come, with something that they carry beside, by point.
+    ///
+    /// # Errors
+    /// Where the values of new points have no fit.
+    pub fn renew_with(&mut self, way: &Way, borne: &mut Vec<f64>) -> Result<Renewed, Failure> {
         let change = self.change(way.spacing);
         let count = change.count;
         if count.any() {
-            self.take(change, way)?;
+            self.take(change, way, borne)?;
         }
         Ok(count)
     }
@@ -197,7 +205,12 @@ impl<const D: usize> Liquid<D> {
     }
 
     /// Makes the change.
-    fn take(&mut self, mut change: Change<D>, way: &Way) -> Result<(), Failure> {
+    fn take(
+        &mut self,
+        mut change: Change<D>,
+        way: &Way,
+        borne: &mut Vec<f64>,
+    ) -> Result<(), Failure> {
         let surface = self.surface();
         let sheet = Sheet {
             points: &self.position[..surface],
@@ -217,6 +230,10 @@ impl<const D: usize> Liquid<D> {
         self.rate = self.carried(&self.rate, leaves, &fresh);
         let pressure = self.pressure.as_chunks::<1>().0;
         self.pressure = self.carried(pressure, leaves, &fresh).into_flattened();
+        if !borne.is_empty() {
+            let old = borne.as_chunks::<1>().0;
+            *borne = self.carried(old, leaves, &fresh).into_flattened();
+        }
         let skin = &leaves[..surface];
         let [now, rate] = &mut self.pull;
         for field in [&mut self.stress, &mut self.charge, now, rate] {

@@ -27,7 +27,7 @@ pub(crate) struct Heated {
     /// Whether heat alone marches.
     pub(crate) still: bool,
     /// By point \[J/kg\].
-    enthalpy: Vec<f64>,
+    pub(super) enthalpy: Vec<f64>,
     /// Parts of the drop that belong to its points, as they were when heat flowed last.
     parts: Option<Parts>,
     /// Volumes of these parts \[m3\].
@@ -120,6 +120,11 @@ impl Heated {
         let parts = self.parts.take();
         let parts = parts.unwrap_or_else(|| self.cut(liquid, patches, step.way.spacing));
         self.march(parts, &[], acting, step, effort)
+    }
+
+    /// Points have come and gone: parts of those that there are now.
+    pub(super) fn divide(&mut self, liquid: &Liquid<3>, patches: &[Patch<3>], spacing: f64) {
+        self.volumes = self.cut(liquid, patches, spacing).volume;
     }
 
     /// Parts of the drop as it is.

@@ -200,7 +200,9 @@ impl March {
                 heat.carry(&ended.rows, &before, &liquid.position);
             }
             made = ended.patches;
-            self.renew(liquid, &mut made, session)?;
+            if liquid.loose() {
+                self.renew(liquid, &mut made, session)?;
+            }
             self.pull(liquid, length / parts, session)?;
         }
         self.drift = along(&self.drift, length, &self.matter.gravity);
@@ -214,21 +216,19 @@ impl March {
         made: &mut Vec<Patch<3>>,
         session: &mut Session,
     ) -> Result<(), Failure> {
-        if !self.renews(liquid) {
-            return Ok(());
-        }
         let way = &self.way;
-        let count = session.timed("renewal of points", || liquid.renew(way))?;
+        let mut none = Vec::new();
+        let borne = (self.heat.as_mut()).map_or(&mut none, |heat| &mut heat.enthalpy);
+        let renew = || liquid.renew_with(way, borne);
+        let count = session.timed("renewal of points", renew)?;
         if count.any() {
             *made = liquid.skin(way.spacing).map_err(|e| failed(&e))?;
+            if let Some(heat) = &mut self.heat {
+                heat.divide(liquid, made, way.spacing);
+            }
         }
         self.course.renewed.add(count);
         Ok(())
-    }
-
-    /// Whether points may merge and come: fields and heat keep values of their own by point.
-    fn renews(&self, liquid: &Liquid<3>) -> bool {
-        liquid.loose() && self.heat.is_none() && !self.acting.any()
     }
 
     /// What fields do where the liquid is, `passed` after the last time \[s\].
@@ -385,7 +385,7 @@ impl March {
                 self.course.divided
             ));
         }
-        if self.renews(liquid) {
+        if liquid.loose() {
             session.closing("points_added", "1", self.course.renewed.added as f64);
             session.closing("points_merged", "1", self.course.renewed.merged as f64);
         }
