@@ -53,7 +53,7 @@ impl Case for LiquidHeat {
         vec![
             Target::error("rate", 5e-3).of("currents"),
             Target::error("power", 1e-2).of("currents"),
-            Target::error("spread", 3e-2).of("currents"),
+            Target::error("spread", 5e-2).of("currents"),
             Target::error("molten", 2e-2).of("melting"),
             Target::error("surface", 2e-2).of("melting"),
             Target::error("put_back", 2e-2).of("melting"),
