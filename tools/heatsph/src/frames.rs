@@ -1,6 +1,6 @@
 //! What is written: frames of points, monitors, heat through the surface, the balance of heat.
 
-use artefact::{Frame, Precision, Record};
+use artefact::{Frame, Precision, Record, one_time};
 use run::{Failure, Session};
 
 use crate::march::State;
@@ -265,7 +265,7 @@ fn events(scene: &Scene) -> Vec<Event> {
             .flat_map(|s| every(s, false)),
     );
     all.sort_by(|a, b| a.time.total_cmp(&b.time));
-    let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * time.end_s;
+    let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * time.end_s || one_time(a, b);
     let mut merged: Vec<Event> = Vec::new();
     for event in all {
         match merged.last_mut() {

@@ -68,9 +68,6 @@ pub fn march(
         (march.pace, march.state) = Pace::restore(&mut checkpoint, march.system, method)?;
     }
     march.begin(session, fresh)?;
-    if fresh {
-        march.write(&mut output, events[0], session)?;
-    }
     while march.pace.next < events.len() {
         let event = events[march.pace.next];
         march.toward(event, session)?;

@@ -72,6 +72,25 @@ fn stored(more: &Value, end: f64) -> Vec<f64> {
 }
 
 #[test]
+fn every_instant_is_written_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, out] = ["scene.json", "out.mcap"].map(|name| folder.path().join(name));
+    let scene = plate(&json!({
+        "time": {"end_s": 0.01, "implicit": {}}, "output": {"every_s": 0.002, "at_s": [0.004_000_000_3]},
+        "boundaries": [{"on": ["x-"], "heat_flux_w_m2": 1e5}]
+    }));
+    std::fs::write(&path, scene.to_string()).unwrap();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_heatsph"));
+    run.arg("run").arg(&path).arg("--out").arg(&out).arg("-q");
+    assert!(run.status().unwrap().success());
+    let reader = artefact::Reader::open_kind(&out, "point-fields", 1).unwrap();
+    let expected = [0.0, 0.002, 0.004, 0.006, 0.008, 0.01];
+    for channel in ["/points", "/boundaries", "/balance"] {
+        assert_eq!(reader.times(channel).unwrap(), expected, "{channel}");
+    }
+}
+
+#[test]
 fn a_torch_comes_from_outside_a_plate_of_one_temperature() {
     let torch = "5e8*exp(-((x+0.1-0.01*t)^2+(y-0.05)^2)/0.01^2)";
     let source = json!({"source_w_m3": {"expr": torch}});

@@ -77,7 +77,7 @@ pub use json::{json_artefact, json_error, json_text};
 pub use key_unit::{KEY_UNITS, unit_of_key};
 pub use lattice::even_step;
 pub use lock::Lock;
-pub use message::{GRID, POINT_CLOUD, RECORD, TABLE};
+pub use message::{GRID, POINT_CLOUD, RECORD, TABLE, one_time};
 pub use place::{followed, must_be_nameable, must_be_replaceable, must_not_be_read};
 pub use reader::Reader;
 pub use recover::{RECOVERED, Saved, recover};

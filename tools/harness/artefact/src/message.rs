@@ -177,6 +177,12 @@ pub(crate) fn log_time(time_s: f64) -> u64 {
     (time_s * 1e9).round() as u64
 }
 
+/// Whether two simulated times \[s\] are one time in a file.
+#[must_use]
+pub fn one_time(first_s: f64, second_s: f64) -> bool {
+    log_time(first_s) == log_time(second_s)
+}
+
 /// Log time as simulated time \[s\].
 #[must_use]
 #[allow(clippy::cast_precision_loss, reason = "exact below 104 days")]

@@ -33,9 +33,8 @@ impl Writer {
 
     fn grid(&mut self, channel: &str, time_s: f64, grid: (&Table, &Lattice)) -> Result<()> {
         let (table, lattice) = grid;
-        let time = self.time(channel, time_s)?;
         let topic = Topic::grid(channel, table);
-        self.admit(&topic, time)?;
+        let time = self.admit_at(&topic, time_s)?;
         let record = attributes(table);
         let beside = topic.more.get(ATTRIBUTES);
         if let Some(beside) = beside {

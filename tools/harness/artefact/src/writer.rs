@@ -14,13 +14,16 @@ use crate::atomic::beside;
 use crate::error::{Error, Result};
 use crate::frame::Frame;
 use crate::header::{Header, METADATA};
-use crate::message::{Topic, UNITS, log_time};
+use crate::message::{Topic, UNITS, log_time, one_time};
 use crate::part::Part;
 use crate::place::must_be_replaceable;
 use crate::table::Record;
 
 /// JSON is gathered into chunks of this size \[byte\].
 const CHUNK_BYTES: usize = 1 << 20;
+
+/// Part of a time by which rounding parts two names of one moment.
+const SAME: f64 = 1e-12;
 
 /// A message that waits for its chunk to be full.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -53,6 +56,8 @@ struct Open {
     id: Option<u16>,
     sequence: u32,
     last: u64,
+    /// The simulated time of the last message \[s\]; of none that is taken up.
+    moment: Option<f64>,
 }
 
 /// Writes an artefact.
@@ -105,9 +110,8 @@ impl Writer {
     /// the disk refuses.
     pub fn frame(&mut self, channel: &str, time_s: f64, frame: &Frame) -> Result<()> {
         self.check(channel, frame.fault(), frame.not_finite())?;
-        let time = self.time(channel, time_s)?;
         let topic = Topic::frames(channel, &frame.layout());
-        self.admit(&topic, time)?;
+        let time = self.admit_at(&topic, time_s)?;
         self.end_waiting()?;
         self.put(channel, time, &frame.encode(time))?;
         self.end_chunk()
@@ -191,8 +195,7 @@ impl Writer {
         time_s: f64,
         value: &T,
     ) -> Result<()> {
-        let log_time = self.time(&topic.channel, time_s)?;
-        self.admit(&topic, log_time)?;
+        let log_time = self.admit_at(&topic, time_s)?;
         let text =
             serde_json::to_string(value).map_err(|e| self.unfit(&topic.channel, e.to_string()))?;
         self.wait(Waiting {
@@ -263,6 +266,7 @@ impl Writer {
                     id: None,
                     sequence: 0,
                     last: time,
+                    moment: None,
                 };
                 self.channels.insert(topic.channel.clone(), open);
                 Ok(())
@@ -290,6 +294,26 @@ impl Writer {
             Some(open) => {
                 open.last = time;
                 Ok(())
+            }
+        }
+    }
+
+    /// Admits a message of a simulated time, and refuses two moments that would share a time in the file.
+    pub(crate) fn admit_at(&mut self, topic: &Topic, time_s: f64) -> Result<u64> {
+        let time = self.time(&topic.channel, time_s)?;
+        self.admit(topic, time)?;
+        let before = self.channels.get_mut(&topic.channel).and_then(|open| {
+            let before = open.moment.replace(time_s)?;
+            let is_other = (time_s - before).abs() > SAME * time_s;
+            (is_other && one_time(before, time_s)).then_some(before)
+        });
+        match before {
+            None => Ok(time),
+            Some(before) => {
+                let what = format!(
+                    "{before:e} s and {time_s:e} s are both {time} ns: times are whole nanoseconds, write less often"
+                );
+                Err(self.unfit(&topic.channel, what))
             }
         }
     }

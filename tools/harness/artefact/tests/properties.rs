@@ -358,3 +358,15 @@ fn a_reader_that_does_not_look_at_every_byte_still_never_reads_something_else() 
         },
     );
 }
+
+#[test]
+fn two_moments_never_share_a_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = Writer::create(folder.path().join("a.mcap"), &header()).unwrap();
+    Message::Record(1.0).write(&mut writer, 1e-9);
+    Message::Frame(vec![[0.0; 3]]).write(&mut writer, 1.2e-9);
+    let record = Record::new().with("mass_kg", "kg", 2.0);
+    let error = writer.record("/balance", 1.2e-9, &record).unwrap_err();
+    let text = error.to_string();
+    assert!(text.contains("1e-9 s and 1.2e-9 s are both 1 ns"), "{text}");
+}

@@ -1,6 +1,7 @@
 //! From scene files to a typed scene: reading, patching, validating, locating every fault.
 
 mod choice;
+mod instants;
 mod migrate;
 mod names;
 mod origin;
@@ -102,7 +103,8 @@ fn typed<S: DeserializeOwned>(
         return Err(Failure::Scene(located(unfilled, &merged)));
     }
     let mut faults = validate::faults(&whole::bounded(schema.clone()), merged.value());
-    let more = quantity::faults(merged.value()).into_iter();
+    let more = quantity::faults(merged.value());
+    let more = more.into_iter().chain(instants::faults(merged.value()));
     faults.extend(
         more.filter(|new| faults.iter().all(|known| known.path() != new.path()))
             .collect::<Vec<_>>(),
