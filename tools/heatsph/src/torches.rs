@@ -248,7 +248,7 @@ impl Torches {
                 "{at}: it has nothing to heat there, and about {:.4e} J are lost",
                 inside.lost
             )),
-            Beyond::Inside => Some(format!("{at}, which takes the whole power all the same")),
+            Beyond::Inside => Some(format!("{at}; what lies outside is given to it too")),
         }
     }
 }

@@ -78,6 +78,53 @@ fn monitors_outside_of_the_body_are_refused() {
 }
 
 #[test]
+fn a_boundary_has_a_name_of_its_own() {
+    let flux = |name: &str| json!({"name": name, "on": ["x-"], "heat_flux_w_m2": 1});
+    let twice = said(&json!({"boundaries": [flux("a"), flux("a")]}));
+    assert!(
+        twice.contains("/boundaries/1/name: 'a' is the name of /boundaries/0 too"),
+        "{twice}"
+    );
+    let source = said(&json!({"boundaries": [flux("source")]}));
+    assert!(
+        source.contains("/boundaries/0/name: 'source' is the name"),
+        "{source}"
+    );
+}
+
+/// Heat by convection and by radiation through one face in a steady state, of which each has its own total.
+#[test]
+fn two_ways_through_one_face_are_told_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, out] = ["scene.json", "out.mcap"].map(|name| folder.path().join(name));
+    let scene = json!({
+        "kind": "heatsph.scene", "version": 1, "dimensions": 2,
+        "body": {"box": {"min_m": [0, 0], "max_m": [1, 1]}}, "points": {"spacing_m": 0.25},
+        "materials": [{"name": "m", "density_kg_m3": 1, "specific_heat_j_kg_k": 1, "conductivity_w_m_k": 1}],
+        "initial_temperature_k": 300, "steady": {},
+        "boundaries": [
+            {"on": ["x-"], "heat_flux_w_m2": 100},
+            {"on": ["x+"], "convection": {"coefficient_w_m2_k": 10, "ambient_k": 300}},
+            {"on": ["x+"], "radiation": {"emissivity": 0.5, "surroundings_k": 300}}
+        ]
+    });
+    std::fs::write(&path, scene.to_string()).unwrap();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_heatsph"));
+    run.arg("run").arg(&path).arg("--out").arg(&out).arg("-q");
+    assert!(run.status().unwrap().success());
+    let record = std::fs::read_to_string(out.with_extension("run.json")).unwrap();
+    let record: Value = serde_json::from_str(&record).unwrap();
+    let closing = record["closing"].as_array().unwrap();
+    let heat = |name: &str| {
+        let row = closing.iter().find(|row| row["name"] == name);
+        row.unwrap()["value"].as_f64().unwrap()
+    };
+    let out = [heat("heat_rate x+"), heat("heat_rate x+ 2")];
+    assert!(out.iter().all(|heat| *heat < -1.0), "{out:?}");
+    assert!((out[0] + out[1] + 100.0).abs() < 1e-6, "{out:?}");
+}
+
+#[test]
 fn mixtures_are_whole() {
     let mixture = |fractions: [Value; 2]| {
         let parts = fractions.map(|f| json!({"fraction": f, "conductivity_w_m_k": 5}));

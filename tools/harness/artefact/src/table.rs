@@ -347,6 +347,15 @@ impl Record {
         self
     }
 
+    /// A name that two scalars have.
+    pub(crate) fn fault(&self) -> Option<String> {
+        let names = self.values.iter().enumerate();
+        let mut twins = names.filter(|(i, e)| self.values[..*i].iter().any(|o| o.name == e.name));
+        twins
+            .next()
+            .map(|(_, e)| format!("scalar '{}' stands twice", e.name))
+    }
+
     /// First value that is not finite: name, entry, value.
     pub(crate) fn not_finite(&self) -> Option<(String, usize, f64)> {
         let i = self.values.iter().position(|e| !e.value.is_finite())?;

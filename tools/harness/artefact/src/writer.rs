@@ -123,7 +123,7 @@ impl Writer {
     /// When names differ from the channel's first record, a value is not finite, or the disk
     /// refuses.
     pub fn record(&mut self, channel: &str, time_s: f64, record: &Record) -> Result<()> {
-        self.check(channel, None, record.not_finite())?;
+        self.check(channel, record.fault(), record.not_finite())?;
         self.text(Topic::record(channel, record), time_s, record)
     }
 

@@ -370,3 +370,12 @@ fn two_moments_never_share_a_time() {
     let text = error.to_string();
     assert!(text.contains("1e-9 s and 1.2e-9 s are both 1 ns"), "{text}");
 }
+
+#[test]
+fn a_record_names_nothing_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut writer = Writer::create(folder.path().join("a.mcap"), &header()).unwrap();
+    let record = Record::new().with("heat", "W", 1.0).with("heat", "W", 2.0);
+    let error = writer.record("/balance", 0.0, &record).unwrap_err();
+    assert!(error.to_string().contains("'heat' stands twice"), "{error}");
+}

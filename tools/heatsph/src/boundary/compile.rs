@@ -31,7 +31,7 @@ pub fn compile(scene: &Scene, cloud: &Cloud) -> Result<Surface, Vec<Fault>> {
             Ok(condition) => surface.conditions.push(condition),
             Err(found) => faults.extend(found),
         }
-        let name = entry.name.clone().unwrap_or_else(|| entry.on.join(" "));
+        let name = unlike(entry, &surface.names);
         surface.names.push(name);
         match extent(entry, &at, cloud) {
             Ok(extent) => extents.push(extent),
@@ -68,6 +68,16 @@ pub fn compile(scene: &Scene, cloud: &Cloud) -> Result<Surface, Vec<Fault>> {
     } else {
         Err(faults)
     }
+}
+
+/// The name of an entry, or else its faces; a second one on them has a number.
+fn unlike(entry: &Boundary, known: &[String]) -> String {
+    let faces = || entry.on.join(" ");
+    let name = entry.name.clone().unwrap_or_else(faces);
+    let numbered = (2..).map(|n| format!("{name} {n}"));
+    let mut names = std::iter::once(name.clone()).chain(numbered);
+    let free = names.find(|name| !known.contains(name));
+    free.unwrap_or(name)
 }
 
 /// Where an entry holds.

@@ -36,7 +36,7 @@ pub struct Radiation {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Boundary {
-    /// Name in the tables of the artefact; the first face when it is absent.
+    /// Name in the tables of the artefact; the faces when it is absent, a second entry on them with a number: `x- 2`.
     pub name: Option<String>,
     /// Faces: `x-` ... `z+` of a box, `side`, `bottom`, `top` of a cylinder, `rim` of a disc, `surface` of a
     /// sphere, `plane` of a half space; `hole.rim` where the shape has the name `hole`.

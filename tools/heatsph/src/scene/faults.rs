@@ -6,7 +6,7 @@ use run::property::Property;
 use shapes::check::{Misfit, check, coordinates};
 use torch::Waveform;
 
-use super::{Scene, Time};
+use super::{Boundary, Scene, Time};
 
 /// Most corners of a waveform, at each of which a step ends.
 const CORNERS: f64 = 200_000.0;
@@ -65,8 +65,19 @@ impl Scene {
                 time.method(faults);
                 self.times(time, faults);
             }
-            (None, Some(_)) => faults.extend(self.timed()),
+            (None, Some(_)) => {
+                faults.extend(self.timed());
+                faults.extend(self.sources());
+            }
         }
+    }
+
+    /// A boundary whose total has the name of that of the sources.
+    fn sources(&self) -> Option<Fault> {
+        let named = |b: &Boundary| b.name.as_deref() == Some("source");
+        let number = self.boundaries.iter().position(named)?;
+        let what = "'source' is the name of the total of heat sources: take another";
+        Some(Fault::at(&format!("/boundaries/{number}/name"), what))
     }
 
     /// Formulas in t, of which a steady state would take those of t = 0 alone.

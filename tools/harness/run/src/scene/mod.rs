@@ -12,6 +12,7 @@ mod sheet;
 mod substance;
 mod suggest;
 mod surface;
+mod twins;
 mod validate;
 mod wanted;
 mod whole;
@@ -105,6 +106,7 @@ fn typed<S: DeserializeOwned>(
     let mut faults = validate::faults(&whole::bounded(schema.clone()), merged.value());
     let more = quantity::faults(merged.value());
     let more = more.into_iter().chain(instants::faults(merged.value()));
+    let more = more.chain(twins::faults(merged.value()));
     faults.extend(
         more.filter(|new| faults.iter().all(|known| known.path() != new.path()))
             .collect::<Vec<_>>(),
