@@ -126,6 +126,8 @@ pub struct Plan {
     pub heat_maps: Option<HeatMaps>,
     /// x of the mirror beside which half of a weld was computed \[m\].
     pub mirror: Option<f64>,
+    /// Direction of a weld that does not run along +y.
+    pub turned: Option<[f64; 2]>,
     /// The source over time; empty at rest.
     pub track: Vec<Source>,
     /// Number of phases; 1 without.
@@ -149,10 +151,7 @@ impl Plan {
     /// When a channel is absent, the spacing is not told, or no frame counts.
     pub fn new(scene: &Scene, reader: &Reader) -> Result<Self, AverageError> {
         let times = reader.times(&scene.channel)?;
-        let (from_s, to_s) = match scene.time {
-            Some(span) => (span.from_s, span.to_s.unwrap_or(f64::INFINITY)),
-            None => (0.0, f64::INFINITY),
-        };
+        let [from_s, to_s] = span(scene);
         // Half a nanosecond: the ends belong to the span.
         let counts = |t: f64| t >= from_s - 5e-10 && t <= to_s + 5e-10;
         let frames: Vec<usize> = (0..times.len()).filter(|i| counts(times[*i])).collect();
@@ -184,6 +183,7 @@ impl Plan {
             Some(follow) => frames::track(reader, &follow.channel)?,
             None => Vec::new(),
         };
+        let metal = Plate::read(reader)?;
         let moments: Vec<f64> = frames.iter().map(|i| times[*i]).collect();
         let counted: Vec<Source> = track.iter().copied().filter(|s| counts(s.time)).collect();
         Ok(Self {
@@ -196,7 +196,8 @@ impl Plan {
             sections: scene.sections(spacing),
             rings: rings(scene, spacing)?,
             heat_maps: heat_maps(scene, spacing, &first)?,
-            mirror: Plate::read(reader)?.and_then(|plate| plate.mirror_x_m),
+            mirror: metal.and_then(|plate| plate.mirror_x_m),
+            turned: metal.and_then(|plate| plate.turned()),
             parts: parts(&track, &moments),
             phases,
             period: scene.phases.and_then(|_| phase::period(&counted)),
@@ -230,6 +231,14 @@ impl Plan {
     pub fn frame_bytes(&self) -> u64 {
         let sides = if self.mirror.is_some() { 2 } else { 1 };
         (sides * self.particles * 2 * (7 * 8 + 4 * 8)) as u64
+    }
+}
+
+/// From and to \[s\], of frames that count.
+fn span(scene: &Scene) -> [f64; 2] {
+    match scene.time {
+        Some(span) => [span.from_s, span.to_s.unwrap_or(f64::INFINITY)],
+        None => [0.0, f64::INFINITY],
     }
 }
 

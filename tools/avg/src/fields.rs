@@ -96,9 +96,15 @@ fn placed(plan: &Plan, section: &Section, points: &[Point]) -> Table {
     at_source(plan, table.in_precision(plan.precision))
 }
 
-/// A table in the frame of reference of the averages.
+/// A table in the frame of reference of the averages, with the direction of a weld that does not run along +y.
 #[must_use]
 pub fn at_source(plan: &Plan, table: Table) -> Table {
+    let table = match plan.turned {
+        Some([x, y]) => table
+            .attribute("along_x", "1", x)
+            .attribute("along_y", "1", y),
+        None => table,
+    };
     if plan.track.is_empty() {
         table
     } else {

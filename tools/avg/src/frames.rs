@@ -21,6 +21,9 @@ pub struct Plate {
     /// x of the mirror beside which half of a weld was computed \[m\].
     #[serde(default)]
     pub mirror_x_m: Option<f64>,
+    /// Direction of welding.
+    #[serde(default)]
+    pub direction: Option<[f64; 3]>,
 }
 
 impl Plate {
@@ -33,6 +36,15 @@ impl Plate {
             return Ok(None);
         }
         reader.json_at("/plate", 0).map(Some)
+    }
+
+    /// The level direction of a weld that does not run along +y.
+    #[must_use]
+    pub fn turned(&self) -> Option<[f64; 2]> {
+        let [x, y, _] = self.direction?;
+        let size = x.hypot(y);
+        let is_y = x.abs() <= 0.0 && y > 0.0;
+        (size > 0.0 && !is_y).then(|| [x / size, y / size])
     }
 
     /// Volume of a particle \[m3\].
@@ -102,6 +114,7 @@ pub fn grains(frame: &Frame) -> artefact::Result<Option<Plate>> {
         spacing_m: mean(|d| d),
         particle_volume_m3: Some(ball / PACKED),
         mirror_x_m: None,
+        direction: None,
     }))
 }
 
@@ -160,6 +173,23 @@ mod tests {
             .positions([[0.0; 3], [1.0; 3]])
             .vector("velocity", "m/s", [[1.0, 2.0, 3.0]; 2])
             .flag("molten", [1, 0])
+    }
+
+    #[test]
+    fn a_weld_along_y_is_told_by_nothing() {
+        let of = |direction: Option<[f64; 3]>| {
+            let plate = Plate {
+                spacing_m: 1e-3,
+                particle_volume_m3: None,
+                mirror_x_m: None,
+                direction,
+            };
+            plate.turned()
+        };
+        assert_eq!(of(None), None);
+        assert_eq!(of(Some([0.0, 1.0, 0.0])), None);
+        assert_eq!(of(Some([0.0, -1.0, 0.0])), Some([0.0, -1.0]));
+        assert_eq!(of(Some([3.0, 4.0, 0.0])), Some([0.6, 0.8]));
     }
 
     #[test]

@@ -342,14 +342,17 @@ impl<'a> Source<'a> {
         let solid = bodies.iter().find(|b| b.state == StartState::Solid);
         let bounds = solid.or(bodies.first()).map(|b| b.shape.bounds());
         let (min_m, max_m) = bounds.unwrap_or_default();
-        let velocity = self.scene.source.map(|source| source.velocity_m_s);
+        let source = self.scene.source;
+        let moved = source.and_then(|source| unit(source.velocity_m_s));
+        let mut torches = self.scene.torches.iter();
+        let moved = moved.or_else(|| torches.find_map(|torch| torch.path.heading()));
         PlateNote {
             min_m,
             max_m,
             spacing_m: self.scene.metal().spacing,
             particle_volume_m3: self.scene.metal().volume(),
             melting_point_k: self.caloric.as_ref().and_then(|c| c.melting_point()),
-            direction: velocity.and_then(unit).unwrap_or([0.0, 1.0, 0.0]),
+            direction: moved.unwrap_or([0.0, 1.0, 0.0]),
             mirror_x_m: self.scene.faces.as_ref().and_then(|f| f.mirror_x_m()),
         }
     }

@@ -47,7 +47,7 @@ pub struct PlateNote {
     /// T_m \[K\], if the metal melts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub melting_point_k: Option<f64>,
-    /// Direction in which the source moves.
+    /// Direction in which the source moves, or else the first torch that does; +y where none does.
     pub direction: [f64; 3],
     /// x of the mirror beside which half of a weld is computed \[m\]; none of the whole.
     #[serde(skip_serializing_if = "Option::is_none")]

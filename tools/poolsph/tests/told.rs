@@ -170,3 +170,23 @@ fn an_arc_that_goes_several_spacings_in_a_step_leaves_a_line_and_no_spots() {
         assert!((a - b).abs() < 0.05 * most, "{a} K, {b} K, of {most} K");
     }
 }
+
+#[test]
+fn the_plate_has_the_direction_of_its_torches() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = plate(
+        &json!({"time": {"step_s": 1e-3, "end_s": 2e-3}, "torches": [{
+        "power_w": 100, "efficiency": 0.8, "shape": {"gaussian": {"radius_m": 2e-3}},
+        "path": {"points_m": [[2e-3, 4e-3, 4e-3], [6e-3, 4e-3, 4e-3]], "speed_m_s": 0.01}}]}),
+    );
+    for at_rest in [true, false] {
+        if !at_rest {
+            scene.as_object_mut().unwrap().remove("source");
+        }
+        let (code, said) = run(folder.path(), &scene);
+        assert!(matches!(code, Some(0 | 3)), "{said}");
+        let reader = Reader::open_kind(folder.path().join("out.mcap"), "particle-frames", 1);
+        let plate: Value = reader.unwrap().json_at("/plate", 0).unwrap();
+        assert_eq!(plate["direction"], json!([1.0, 0.0, 0.0]));
+    }
+}

@@ -71,6 +71,15 @@ impl Path {
         }
     }
 
+    /// Direction of the whole path: from its first corner to the last; of one that comes back, along its first leg. None where it stands.
+    #[must_use]
+    pub fn heading(&self) -> Option<Vector> {
+        let first = self.points_m.first()?;
+        let from = |to: &Vector| unit(along(*to, -1.0, *first));
+        let last = self.points_m.last().and_then(from);
+        last.or_else(|| self.points_m.iter().find_map(from))
+    }
+
     /// When the arc burns: from, and to \[s\].
     #[must_use]
     pub fn burns(&self) -> [f64; 2] {
@@ -167,6 +176,16 @@ mod tests {
         }
         assert!((path.aside(1.25) - 0.5).abs() < 1e-12 && path.aside(1.0).abs() < 1e-15);
         assert!((path.fastest() - 2.0_f64.hypot(TAU * 0.5)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_path_heads_for_its_end() {
+        let mut path = corner();
+        assert_eq!(path.heading(), Some([0.8, 0.6, 0.0]));
+        path.points_m.push([0.0; 3]);
+        assert_eq!(path.heading(), Some([0.0, 1.0, 0.0]));
+        path.points_m.truncate(1);
+        assert_eq!(path.heading(), None);
     }
 
     #[test]

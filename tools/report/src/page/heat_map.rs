@@ -7,6 +7,7 @@ use run::Failure;
 use super::encoding;
 use crate::draw::axes::Scale;
 use crate::html::{FRAME_WIDTH, chosen, escape, figure, frames, picture};
+use crate::picture::heading::Heading;
 use crate::picture::heat_map::{WAYS, Way, beside, scale};
 use crate::plot::{Line, Plot};
 
@@ -39,7 +40,8 @@ pub(super) fn section(reader: &Reader) -> Result<String, Failure> {
         let [from, to] = span(map)?;
         let caption = format!(
             "Heat flux into the metal from above, mean of {from:.2} to {to:.2} s: red where metal is heated, blue where it is \
-             cooled, white where nothing passes. The weld runs to the right."
+             cooled, white where nothing passes. {}",
+            Heading::of(map).seen_from_above()
         );
         out += &drawn(map, &ways, &caption)?;
     }

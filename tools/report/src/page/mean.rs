@@ -1,6 +1,6 @@
 //! The averaged flow.
 
-use artefact::Reader;
+use artefact::{Reader, Table};
 use run::Failure;
 use serde_json::Value;
 
@@ -8,6 +8,7 @@ use super::encoding;
 use crate::draw::axes::number;
 use crate::flux::GRAINS;
 use crate::html::{escape, figure, picture};
+use crate::picture::heading::Heading;
 use crate::picture::mean::{Field, Style, phases, single};
 use crate::plot::{Line, Plot};
 
@@ -32,26 +33,34 @@ pub(super) fn of_grains(reader: &Reader) -> bool {
 
 /// Channels and titles of the sections: those that all studies have, then the others.
 fn sections(reader: &Reader) -> artefact::Result<Vec<(String, String)>> {
-    let mut all: Vec<_> = SECTIONS
-        .map(|(channel, title)| (channel.to_owned(), title.to_owned()))
-        .into();
+    let mut all = Vec::new();
+    for (channel, title) in SECTIONS {
+        let means = format!("{channel}{MEAN}");
+        let mut title = title.to_owned();
+        if reader.has(&means) && !Heading::of(&reader.table(&means)?).is_along_y() {
+            title = stands(&reader.table(&means)?).unwrap_or(title);
+        }
+        all.push((channel.to_owned(), title));
+    }
     for found in reader.channels() {
         let channel = found.name.strip_suffix(MEAN);
         let new = channel.filter(|name| all.iter().all(|(known, _)| known != name));
         let Some(channel) = new else { continue };
         let table = reader.table(&found.name)?;
         if table.has("frames_metal") {
-            let stands = AXES.iter().find_map(|axis| {
-                let at = table.scalar(&format!("{axis}_m")).ok()?;
-                Some(format!("The plane {axis} = {} mm", number(1e3 * at)))
-            });
-            all.push((
-                channel.to_owned(),
-                stands.unwrap_or_else(|| channel.to_owned()),
-            ));
+            let title = stands(&table).unwrap_or_else(|| channel.to_owned());
+            all.push((channel.to_owned(), title));
         }
     }
     Ok(all)
+}
+
+/// Where the plane of a section stands.
+fn stands(table: &Table) -> Option<String> {
+    AXES.iter().find_map(|axis| {
+        let at = table.scalar(&format!("{axis}_m")).ok()?;
+        Some(format!("The plane {axis} = {} mm", number(1e3 * at)))
+    })
 }
 
 /// The section; nothing where no liquid was averaged.

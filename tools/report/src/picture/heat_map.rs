@@ -2,6 +2,7 @@
 
 use artefact::Table;
 
+use super::heading::Heading;
 use super::{WIDTH, bar_beside, quantile, scale_bar};
 use crate::draw::axes::{Axes, Scale};
 use crate::draw::canvas::Canvas;
@@ -61,7 +62,7 @@ pub(crate) fn scale(maps: &[Table], way: Way) -> Option<Scale> {
     })
 }
 
-/// Cells as a picture has them: the weld runs to the right, x downwards, as in other views from above.
+/// Cells as a picture has them: the usual weld runs to the right, x downwards, as in other views from above.
 struct Cells<'a> {
     values: &'a [f64],
     /// Lower corner of all cells, and their side \[mm\].
@@ -115,7 +116,16 @@ pub(crate) fn beside(map: &Table, shown: &[(Way, Scale)]) -> Option<Canvas> {
         axes.paint(&mut canvas, |at| {
             Some(colours.colour(1e-6 * way.sign * cells.at(at)))
         });
-        axes.draw(&mut canvas, "along y [mm]", "across, -x [mm]");
+        let heading = Heading::of(map);
+        let up = match heading.is_along_y() {
+            true => "across, -x [mm]",
+            false => "-x [mm]",
+        };
+        axes.draw(
+            &mut canvas,
+            &format!("{} [mm]", heading.axis('y', false)),
+            up,
+        );
         let title = (Stand::Left, INK);
         write(
             &mut canvas,

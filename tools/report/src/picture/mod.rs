@@ -6,6 +6,7 @@ pub(crate) mod cross;
 pub(crate) mod drops;
 pub(crate) mod field;
 pub(crate) mod flux;
+pub(crate) mod heading;
 pub(crate) mod heat;
 pub(crate) mod heat_map;
 pub(crate) mod jet;

@@ -39,7 +39,7 @@ pub(in crate::page) fn section(members: &[Member], stage: &str) -> Result<String
     let mut out = String::new();
     let mut kinds = welds(&own);
     kinds.push(("The arc in a plane through its axis.", arcs(&own)?));
-    kinds.push(("The mean flow along the weld.", means(&own)?));
+    kinds.push(means(&own)?);
     kinds.push(("The temperature at the end.", heats(&own)?));
     kinds.push(("The last frame.", jets(&own)?));
     for (what, all) in kinds {
@@ -97,7 +97,7 @@ fn arcs(own: &[(&str, &Stage)]) -> Result<Vec<(String, Canvas)>, Failure> {
     Ok(all)
 }
 
-fn means(own: &[(&str, &Stage)]) -> Result<Vec<(String, Canvas)>, Failure> {
+fn means(own: &[(&str, &Stage)]) -> Result<Shown, Failure> {
     let mut fields = Vec::new();
     for (run, stage) in own.iter().filter(|(_, s)| s.is("mean-fields")) {
         let first = Field::all(&stage.reader, "/section_x0/time_mean")?;
@@ -110,12 +110,15 @@ fn means(own: &[(&str, &Stage)]) -> Result<Vec<(String, Canvas)>, Failure> {
     }
     let all: Vec<Field> = fields.iter().map(|(_, field)| field.clone()).collect();
     let Some(style) = Style::of(&all, MELTING) else {
-        return Ok(Vec::new());
+        return Ok(("", Vec::new()));
+    };
+    let what = match all.iter().all(Field::is_usual) {
+        true => "The mean flow along the weld.",
+        false => "The mean flow in the section x0.",
     };
     let drawn = fields.into_iter();
-    Ok(drawn
-        .filter_map(|(run, field)| Some((run, single(&field, &style)?)))
-        .collect())
+    let drawn = drawn.filter_map(|(run, field)| Some((run, single(&field, &style)?)));
+    Ok((what, drawn.collect()))
 }
 
 fn heats(own: &[(&str, &Stage)]) -> Result<Vec<(String, Canvas)>, Failure> {

@@ -2,6 +2,8 @@
 
 use artefact::{Reader, Table};
 
+use crate::picture::heading::Heading;
+
 /// A grid of means, in millimetres, with what the pictures need.
 #[derive(Debug, Clone)]
 pub(crate) struct Field {
@@ -13,6 +15,7 @@ pub(crate) struct Field {
     pub(super) metal: Vec<bool>,
     pub(super) liquid: Vec<bool>,
     interval: Option<Vec<f64>>,
+    heading: Heading,
     /// Phase of the droplet period; `None` for a mean over time.
     pub(crate) phase: Option<f64>,
     /// Frames averaged.
@@ -65,6 +68,7 @@ impl Field {
                 .values("velocity_interval_m_s")
                 .ok()
                 .map(<[f64]>::to_vec),
+            heading: Heading::of(table),
             phase: table.scalar("phase").ok(),
             frames: table.scalar("frames").unwrap_or(0.0),
             drops: table.scalar("drops").unwrap_or(0.0),
@@ -117,7 +121,12 @@ impl Field {
             .map(|(t, _)| *t)
     }
 
-    /// Whether the second axis runs to the right (seen from above, the welding direction does).
+    /// Whether the plane x = const lies along the weld, and y = const across it.
+    pub(crate) fn is_usual(&self) -> bool {
+        self.heading.is_along_y()
+    }
+
+    /// Whether the second axis runs to the right (seen from above, the usual welding direction does).
     pub(super) fn turned(&self) -> bool {
         self.axes == ['x', 'y']
     }
@@ -146,13 +155,13 @@ impl Field {
     }
 
     pub(super) fn titles(&self) -> [String; 2] {
-        let name = |axis: char| match axis {
-            'x' => "across x [mm]".to_owned(),
-            'y' => "along, from the arc y' [mm]".to_owned(),
-            _ => "height z [mm]".to_owned(),
-        };
+        let name = |axis: char| format!("{} [mm]", self.heading.axis(axis, true));
         if self.turned() {
-            [name('y'), "across, -x [mm]".to_owned()]
+            let up = match self.heading.is_along_y() {
+                true => "across, -x [mm]",
+                false => "-x [mm]",
+            };
+            [name('y'), up.to_owned()]
         } else {
             [name(self.axes[0]), name(self.axes[1])]
         }
