@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use run::{Estimate, Failure, Fault, Input, Inputs, Plan, Preview, Session, Tool};
 
-use crate::assemble::{GasFile, assemble, pool, preview};
+use crate::assemble::{GasFile, assemble, pool, preview, sampled};
 use crate::case::Case;
 use crate::scene::{Gas, Scene};
 use crate::settings::Settings;
@@ -144,7 +144,8 @@ impl Tool for ArcFvm {
                 false => session.note(told.text),
             }
         }
-        for told in arc.unheld(&scene.sample).into_iter().chain(doubt) {
+        let sampled = sampled::told(&scene, &arc.case.grid).into_iter();
+        for told in sampled.chain(arc.unheld(&scene.sample)).chain(doubt) {
             session.warn(told);
         }
         march::close(&arc, balance.as_ref(), session);

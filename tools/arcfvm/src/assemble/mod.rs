@@ -12,6 +12,7 @@ mod layout;
 mod matter;
 pub(crate) mod pool;
 mod preview;
+pub(crate) mod sampled;
 mod start;
 mod vapour;
 mod wire;

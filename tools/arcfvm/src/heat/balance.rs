@@ -67,6 +67,8 @@ pub struct Balance {
     pub granular: f64,
     /// Through the edges by conduction.
     pub edges: f64,
+    /// Sum of the amounts that pass through faces of the edges, for scale.
+    pub exchanged: f64,
     /// Through the edges with gas and metal.
     pub flow: f64,
     /// With drops from the wire.
@@ -97,6 +99,7 @@ impl Balance {
             granular: sources.granular,
             vapour: sources.vapour,
             edges: through.conduction,
+            exchanged: through.scale(),
             flow: through.flow,
             drops: -drops,
             electrons: energy.carried(around),

@@ -8,6 +8,9 @@ use crate::heat::electrons::{Carried, Drift, Nothing};
 use crate::heat::energy::Energy;
 use crate::heat::reads::Around;
 
+/// Part of the heat that an edge of 0 K would get that is none.
+const ROUNDING: f64 = 1e-9;
+
 /// Heat through the edges \[W\]; what enters is positive.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EdgeHeat {
@@ -17,6 +20,16 @@ pub struct EdgeHeat {
     pub flow: f64,
     /// Sum of the amounts exchanged, for scale.
     pub size: f64,
+    /// What cells would give to edges of 0 K.
+    pub held: f64,
+}
+
+impl EdgeHeat {
+    /// What is exchanged, or else the least that tells anything beside the rounding of temperatures \[W\].
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        self.size.max(ROUNDING * self.held)
+    }
 }
 
 impl Energy {
@@ -44,6 +57,7 @@ impl Energy {
             size: exchange.abs() + flux.abs(),
             conduction: flux,
             flow: 0.0,
+            held: (a + electrons).abs() * here.temperature,
         };
         if face.mass_out == 0.0 {
             through.conduction += exchange;
@@ -68,6 +82,7 @@ impl Energy {
                             None => self.through_edge(around, &Nothing, edge, face),
                         };
                         all.size += part.size;
+                        all.held += part.held;
                         all.conduction += part.conduction;
                         all.flow += part.flow;
                     }

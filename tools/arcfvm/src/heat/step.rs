@@ -118,7 +118,7 @@ impl Arc {
             return Ok((0.0, Unbalanced::default(), 0));
         };
         let case = around.case;
-        let scale = sources.size() + energy.edges(around).size;
+        let scale = sources.size() + energy.edges(around).scale();
         let found = energy
             .solve(around, step)
             .map_err(|e| Error::solver("energy", iteration, case, &e))?;

@@ -158,14 +158,16 @@ impl Arc {
         })
     }
 
-    /// Power for scale \[W\]: that of the supply, or all that is given and exchanged.
+    /// Power for scale \[W\]: that of the supply, or all that is given and exchanged, or passes from edge to edge.
     #[must_use]
     pub fn power(&self, balance: &Balance) -> f64 {
         let electric = self.supply(balance).electric();
         if electric > 0.0 {
             electric
         } else {
-            balance.given.abs() + balance.edges.abs() + balance.flow.abs()
+            let net = balance.given.abs() + balance.edges.abs() + balance.flow.abs();
+            // What comes in through one edge and leaves through another.
+            net.max(0.5 * balance.exchanged)
         }
     }
 
@@ -191,8 +193,12 @@ impl Arc {
             ));
         }
         if missing.abs() > MOST {
+            let enters = match supply.electric() > 0.0 {
+                true => format!("voltage times current is {scale:.1} W"),
+                false => format!("{scale:.1} W are given and exchanged"),
+            };
             session.warn(format!(
-                "voltage times current is {scale:.1} W and unpaid items are {:.1} W, {:.1} W leave: {:.1} % are missing \
+                "{enters} and unpaid items are {:.1} W, {:.1} W leave: {:.1} % are missing \
                  where at most {:.0} % may be",
                 supply.owed(),
                 supply.left(),

@@ -82,3 +82,20 @@ fn an_electrode_without_a_partner_owes_its_work_function() {
     assert_eq!(names, ["ions_lower", "work_function_lower"]);
     assert!(supply.closure().abs() < 1e-6 * supply.electric());
 }
+
+/// 10 W that only pass through are the scale of what may be missing.
+#[test]
+fn without_a_current_heat_that_passes_is_the_scale() {
+    let scene = json!({
+        "kind": "arcfvm.scene", "version": 1, "title": "A cylinder", "domain": {"r_m": [0, 5e-3], "z_m": [0, 2e-3]},
+        "grid": {"r": 5e-4, "z": 1e-3},
+        "gas": {"given": {"thermal_conductivity_w_m_k": 1.5, "specific_heat_j_kg_k": 500, "density_kg_m3": 0.1, "net_emission_w_m3": 0}},
+        "heat": {"edges": {"outer": [{"temperature_k": 1000}], "top": [{"over_m": [0, 2e-3], "flux_w_m2": 7.9577e5}]}},
+        "start": {"temperature_k": 1000}, "iterate": {"tolerance": 1e-9}
+    });
+    let mut arc = solve(&scene);
+    let balance = arc.settle().unwrap();
+    let missing = arc.supply(&balance).closure() / arc.power(&balance);
+    assert!(missing.abs() < 1e-3, "{missing}");
+    assert!((arc.power(&balance) / 10.0 - 1.0).abs() < 1e-3);
+}
