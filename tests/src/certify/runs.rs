@@ -82,6 +82,12 @@ fn eprintln_progress(name: &str, expected: Option<f64>) {
     }
 }
 
+/// Names of all runs of a plan.
+#[must_use]
+pub fn names(plan: &Plan) -> Vec<String> {
+    wanted(plan).into_iter().map(|point| point.name).collect()
+}
+
 /// The base and every point of every knob.
 fn wanted(plan: &Plan) -> Vec<Wanted<'_>> {
     let mut all = vec![Wanted {

@@ -10,7 +10,10 @@ use crate::chance::Chance;
 /// Kills of one run before it may end.
 const IN_A_ROW: usize = 3;
 
-/// Kills a job so many times.
+/// A job that keeps checkpoints is killed this many times as often before it is said that none was taken up.
+const PATIENCE: usize = 10;
+
+/// Kills a job so many times, and until one of its checkpoints was taken up.
 pub(super) fn row(job: &Job, times: usize, chance: &mut Chance) -> Result<Row, String> {
     let read = |name: &str| std::fs::read(job.path(name)).map_err(|e| format!("{name}: {e}"));
     let straight = read("straight.mcap")?;
@@ -19,7 +22,10 @@ pub(super) fn row(job: &Job, times: usize, chance: &mut Chance) -> Result<Row, S
     finish(job, false)?;
     let long = began.elapsed();
     let (mut killed, mut resumed, mut wrong) = (0, 0, None);
-    while killed < times && wrong.is_none() {
+    let is_due = |killed: usize, resumed: usize| {
+        killed < times || (job.keeps() && resumed == 0 && killed < PATIENCE * times)
+    };
+    while is_due(killed, resumed) && wrong.is_none() {
         job.clear("killed.mcap")?;
         let mut goes_on = false;
         for _ in 0..=chance.below(IN_A_ROW) {
@@ -39,7 +45,7 @@ pub(super) fn row(job: &Job, times: usize, chance: &mut Chance) -> Result<Row, S
             wrong = Some(format!("kill {killed} led to other bytes"));
         }
     }
-    let holds = wrong.is_none() && killed > 0;
+    let holds = wrong.is_none() && was_tried(job.keeps(), killed, resumed);
     Ok(Row {
         fault: "killed at a random moment".to_owned(),
         who: job.name.to_owned(),
@@ -49,6 +55,11 @@ pub(super) fn row(job: &Job, times: usize, chance: &mut Chance) -> Result<Row, S
             .unwrap_or_else(|| format!("the same bytes, {resumed} times from a checkpoint")),
         holds: Some(holds),
     })
+}
+
+/// Whether kills say anything: some hit, and some were followed by a run from a checkpoint where the job keeps any.
+fn was_tried(keeps: bool, killed: usize, resumed: usize) -> bool {
+    killed > 0 && (resumed > 0 || !keeps)
 }
 
 /// Starts a job and kills it after some time; whether it was still there to be killed.
@@ -84,5 +95,16 @@ fn finish(job: &Job, goes_on: bool) -> Result<(), String> {
                 job.name
             ))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kills_without_a_run_from_a_checkpoint_prove_nothing() {
+        assert!(!was_tried(true, 30, 0) && !was_tried(false, 0, 0));
+        assert!(was_tried(true, 30, 1) && was_tried(false, 30, 0));
     }
 }

@@ -91,6 +91,9 @@ const RECIPES: [Recipe; 10] = [
     ),
 ];
 
+/// Jobs that keep no checkpoint: they begin again.
+const WITHOUT: [&str; 3] = ["gasprop", "emfield", "dielectric-sphere"];
+
 /// All jobs, each run once: what it wrote undisturbed is `straight.mcap` in its folder.
 pub(super) fn jobs(trials: &Trials) -> Result<Vec<Job>, String> {
     let mut jobs: Vec<Job> = Vec::new();
@@ -147,6 +150,11 @@ impl Job {
             .args(["--threads", "2", "--progress", "none", "-q"])
             .args(["--checkpoint-s", "0.01"]);
         command
+    }
+
+    /// Whether it writes checkpoints.
+    pub(super) fn keeps(&self) -> bool {
+        !WITHOUT.contains(&self.name)
     }
 
     /// A file of its folder.
