@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 
 use num_complex::Complex;
 
+use crate::norms::Worst;
+
 /// Ways in which metal is kept incompressible beside faces, the default first.
 pub(crate) const METHODS: &[&str] = &["divergence_free", "projection"];
 
@@ -88,7 +90,7 @@ pub(crate) fn apart(one: &[[f64; 2]], other: &[[f64; 2]], high: f64, n: usize) -
     let differences = one
         .iter()
         .filter_map(|[z, u]| Some((u - of(layer(*z))?[1]).abs()));
-    differences.fold(0.0, f64::max)
+    differences.worst()
 }
 
 /// Times at which `y` changes its sign, between the rows on a line.
@@ -150,6 +152,13 @@ fn bessel_ratio(x: Complex<f64>) -> Complex<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn profiles_without_a_common_layer_are_not_alike() {
+        assert!(apart(&[], &[[0.5, 1.0]], 1.0, 4).is_nan());
+        assert!(apart(&[[0.1, 1.0]], &[[0.9, 1.0]], 1.0, 4).is_nan());
+        assert!((apart(&[[0.1, 1.0]], &[[0.2, 3.0]], 1.0, 4) - 2.0).abs() < 1e-15);
+    }
 
     #[test]
     fn a_return_flow_has_no_flux_and_turns_at_two_thirds() {

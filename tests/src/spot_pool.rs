@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::norms::Worst;
 use crate::particles::Frames;
 
 /// Where the depth is measured: within this distance from the axis \[m\].
@@ -65,7 +66,7 @@ impl Pool {
         Some(Seen {
             depth: fitted::<2>(&deep)?[0],
             half_width: fitted::<2>(&wide)?[0],
-            speed: speeds.fold(0.0, f64::max),
+            speed: speeds.worst(),
         })
     }
 

@@ -5,6 +5,7 @@ use serde_json::json;
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::grains::{fault, frames};
 use crate::lab::{Finished, Lab, LabError};
+use crate::norms::Worst;
 use crate::particles::number;
 
 /// The case.
@@ -78,7 +79,7 @@ fn errors(run: &Finished) -> Result<Errors, LabError> {
     let exact = 4.0 * most * (amplitude - most / k_t);
     let largest = third.iter().map(|(_, f)| f.abs()).fold(0.0, f64::max);
     Ok(Errors::from([
-        ("closure".to_owned(), gap.fold(0.0, f64::max) / most),
+        ("closure".to_owned(), gap.worst() / most),
         ("loss".to_owned(), (loss / exact - 1.0).abs()),
         ("force".to_owned(), (largest / most - 1.0).abs()),
     ]))

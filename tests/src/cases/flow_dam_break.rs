@@ -4,6 +4,7 @@ use serde_json::Value;
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::lab::{Finished, Lab, LabError, read_json};
+use crate::norms::Worst;
 use crate::particles::{Frames, measurement, number};
 
 /// The case.
@@ -118,7 +119,7 @@ fn apart(found: &[(f64, f64)], known: &[(f64, f64)], shift: f64) -> f64 {
         let at = along(found, time - shift)?;
         Some((at / place - 1.0).abs())
     });
-    points.fold(0.0, f64::max)
+    points.worst()
 }
 
 /// The value at a time, between the rows on a line; none beyond them.

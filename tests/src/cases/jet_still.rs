@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::lab::{Lab, LabError};
+use crate::norms::Worst;
 use crate::solid::fault;
 
 /// Depth of the water and size of the block \[m\].
@@ -65,7 +66,7 @@ impl Case for JetStill {
         if is_beside {
             let late = frames.iter().filter(|frame| frame.time_s >= BESIDE[1]);
             let speeds: Vec<f64> = late.map(speed).collect::<Result<_, _>>()?;
-            errors.insert("speed".to_owned(), speeds.into_iter().fold(0.0, f64::max));
+            errors.insert("speed".to_owned(), speeds.into_iter().worst());
             errors.insert("within".to_owned(), within(&frames, spacing)?);
         } else {
             errors.insert("speed".to_owned(), speed(last)?);

@@ -2,6 +2,7 @@
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::lab::{Finished, Lab, LabError};
+use crate::norms::Worst;
 use crate::particles::{Frames, mean, measurement, number};
 
 /// Komen (2019), section 3.3.4.
@@ -87,7 +88,7 @@ fn errors(run: &Finished, frames: &Frames, liquid: &[usize]) -> Result<Errors, L
         });
         mean(squares).sqrt()
     };
-    let fastest = late.map(speed).fold(0.0, f64::max);
+    let fastest = late.map(speed).worst();
     Ok(Errors::from([
         (
             "pressure_l2".to_owned(),
@@ -95,7 +96,7 @@ fn errors(run: &Finished, frames: &Frames, liquid: &[usize]) -> Result<Errors, L
         ),
         (
             "pressure_linf".to_owned(),
-            misses.iter().fold(0.0, |w, m| m.abs().max(w)),
+            misses.iter().map(|m| m.abs()).worst(),
         ),
         (
             "speed_residual".to_owned(),

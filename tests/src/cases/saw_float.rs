@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::grains::{fault, frames};
 use crate::lab::{Finished, Lab, LabError, read_json};
+use crate::norms::Worst;
 use crate::particles::number;
 
 /// The case.
@@ -171,7 +172,7 @@ fn lies(run: &Finished) -> Result<[f64; 3], LabError> {
     let level = metal
         .first()
         .map_or(0.0, |metal| metal.len() as f64 * d / (TANK * TANK));
-    let (mut sunk, mut tilt) = (0.0_f64, 0.0_f64);
+    let (mut sunk, mut tilts) = (0.0_f64, Vec::new());
     let mut heights = Vec::new();
     for frame in grains.iter().filter(|frame| frame.time_s >= SETTLED - 1e-9) {
         let places = frame.position_vectors()?;
@@ -186,15 +187,15 @@ fn lies(run: &Finished) -> Result<[f64; 3], LabError> {
         let means = quarters.map(|(sum, count)| sum / count);
         let [low, high] = [
             means.into_iter().fold(f64::INFINITY, f64::min),
-            means.into_iter().fold(0.0, f64::max),
+            means.into_iter().worst(),
         ];
-        tilt = tilt.max((high - low) / d);
+        tilts.push((high - low) / d);
         heights.push(places.iter().map(|x| x[2]).sum::<f64>() / count);
     }
     let (Some(first), Some(last)) = (heights.first(), heights.last()) else {
         return Err(fault(run, "has no frames of the layer at rest"));
     };
-    Ok([sunk, (last - first).abs() / d, tilt])
+    Ok([sunk, (last - first).abs() / d, tilts.into_iter().worst()])
 }
 
 #[cfg(test)]

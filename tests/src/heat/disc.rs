@@ -366,6 +366,7 @@ impl Factor {
 mod tests {
     use super::*;
     use crate::heat::robin::Slab;
+    use crate::norms::Worst;
     use serde_json::json;
 
     fn read(value: &serde_json::Value) -> Property {
@@ -450,7 +451,7 @@ mod tests {
         for (found, wanted) in found.iter().zip(&wanted) {
             let drop = 1023.0 - wanted.iter().copied().fold(f64::INFINITY, f64::min);
             let miss = found.iter().zip(wanted).map(|(c, f)| (c - f).abs());
-            let worst = miss.fold(0.0, f64::max);
+            let worst = miss.worst();
             // The target is 3e-3 of the drop.
             assert!(drop > 30.0 && worst < 1.5e-4 * drop, "{worst} of {drop}");
         }
