@@ -4,6 +4,7 @@ use std::os::unix::fs::{PermissionsExt, symlink};
 use std::process::Command;
 
 use artefact::{Checkpoint, Error, Reader, beside, write_atomically};
+use verification::skipped::skip;
 
 use crate::workplace::{Place, header, program, root, told};
 
@@ -86,7 +87,7 @@ fn a_folder_that_cannot_be_written_is_named() {
     std::fs::create_dir(&folder).unwrap();
     std::fs::set_permissions(&folder, std::fs::Permissions::from_mode(0o555)).unwrap();
     if std::fs::write(folder.join("probe"), "").is_ok() {
-        eprintln!("skipped: this user may write into read-only folders");
+        skip("user", "this user may write into read-only folders");
         return;
     }
     place

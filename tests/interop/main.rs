@@ -16,6 +16,7 @@ use std::process::Command;
 
 use artefact::{Frame, GRID, Header, Precision, Reader, Record, Table, Version, Writer};
 use serde_json::Value;
+use verification::skipped::skip;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -28,19 +29,14 @@ fn program(name: &str) -> PathBuf {
     Path::new(env!("CARGO_BIN_EXE_verify")).with_file_name(name)
 }
 
-/// The interpreter with the readers, or `None` (said aloud) where it is not installed. Continuous
-/// integration sets `FUSIONLINE_NEEDS_PYTHON`, and there its absence is a failure.
+/// The interpreter with the readers, or `None` where it is not installed.
 fn python() -> Option<PathBuf> {
     let path = root().join("build/python/bin/python");
     if path.exists() && root().join("build/python/.installed").exists() {
         return Some(path);
     }
-    assert!(
-        std::env::var_os("FUSIONLINE_NEEDS_PYTHON").is_none(),
-        "{} is not installed: run `make build/python/.installed`",
-        path.display()
-    );
-    eprintln!("skipped: no Python readers in build/python");
+    let why = "no Python readers in build/python: run `make build/python/.installed`";
+    skip("python", why);
     None
 }
 

@@ -6,6 +6,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use serde_json::json;
+use verification::skipped::skip;
 
 use super::study::Workshop;
 use super::sweep::welds;
@@ -138,9 +139,9 @@ fn wait(what: &str, come: impl Fn() -> bool) {
 fn a_cluster_makes_the_points_in_their_order_and_tells_what_failed() {
     let programs = ["munged", "slurmctld", "slurmd", "sbatch", "sinfo"];
     if let Some(missing) = programs.iter().find(|program| !is_there(program)) {
-        println!(
-            "{missing} is not here (Debian: munge slurmctld slurmd slurm-client): no sweep is submitted"
-        );
+        let packages = "Debian: munge slurmctld slurmd slurm-client";
+        let why = format!("{missing} is not here ({packages}): no sweep is submitted");
+        skip("slurm", &why);
         return;
     }
     let cluster = Cluster::start();

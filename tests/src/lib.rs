@@ -31,6 +31,7 @@ pub mod norms;
 pub mod operators;
 mod particles;
 pub mod plasma;
+pub mod skipped;
 mod solid;
 pub mod special;
 pub mod speed;

@@ -10,6 +10,9 @@ mod handover;
 #[path = "pages/placed.rs"]
 mod placed;
 mod sample;
+#[allow(unreachable_pub, reason = "it is public where it lives")]
+#[path = "../../../tests/src/skipped.rs"]
+mod skipped;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
