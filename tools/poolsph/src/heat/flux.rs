@@ -78,6 +78,18 @@ impl Flux {
         if !matches!(self.law, Law::Curve(_)) || r > NEAR * d {
             return self.at(r, t, time, dt);
         }
+        self.even(from, d, t, times)
+    }
+
+    /// Its mean on the square of the side `d` \[m\], `from` the axis.
+    pub(super) fn even(
+        &self,
+        from: [f64; 2],
+        d: f64,
+        t: f64,
+        times: [f64; 2],
+    ) -> Result<(f64, bool), StageError> {
+        let [time, dt] = times;
         let (mut sum, mut most, mut whole) = (0.0, 0.0_f64, true);
         for i in 0..PARTS {
             for j in 0..PARTS {

@@ -243,7 +243,7 @@ impl Stage for Torches {
             );
             match lit.lost.value() {
                 lost if lost > 0.0 => format!("{at}; {lost:.4e} J are lost"),
-                _ => format!("{at}, which takes the whole power all the same"),
+                _ => format!("{at}; what lies outside is given to it too"),
             }
         });
         let much = self.torches.iter().enumerate();

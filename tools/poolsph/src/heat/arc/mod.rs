@@ -198,8 +198,8 @@ impl Arc {
     }
 
     /// What of particle `a` lies under the arcs; `None` where none reaches. What a particle has of the plan lies around it;
-    /// its whole area lies before it on the surface.
-    fn lit(&self, skin: &Skin<'_>, a: usize) -> Option<Spot> {
+    /// its whole area lies before it on the surface. What lies `near` \[m\] beyond the reach of an arc counts too.
+    fn lit(&self, skin: &Skin<'_>, a: usize, near: f64) -> Option<Spot> {
         let patch = skin.surface.at(a);
         if patch.area.max(patch.seen) <= 0.0 || !skin.takes(a) {
             return None;
@@ -209,7 +209,7 @@ impl Arc {
             Onto::Area if patch.normal[2] > 0.0 => (patch.foot(skin.position[a]), patch.area),
             Onto::Area => return None,
         };
-        let reach = |stand: &Stand| self.arcs[stand.arc].reach;
+        let reach = |stand: &Stand| self.arcs[stand.arc].reach + near;
         let mut stands = self.stands.iter();
         let reached = stands.any(|stand| stand.square([x, y]) <= reach(stand) * reach(stand));
         (reached && area > 0.0).then_some(Spot { at: [x, y], area })
@@ -308,7 +308,7 @@ impl Stage for Arc {
             self.compare(&skin, state)?;
         }
         heated.fill(&state.exposed, |a| {
-            let spot = self.lit(&skin, a)?;
+            let spot = self.lit(&skin, a, 0.0)?;
             Some(self.heat(&skin, a, spot, now))
         });
         let columns = (&ENTHALPY, &TEMPERATURE, &FROM_ARC);
@@ -368,7 +368,7 @@ impl Stage for Arc {
     fn save(&self) -> Vec<f64> {
         let put = self.energies.iter().flat_map(|(_, sum)| sum.save());
         let reached = self.arcs.iter().map(|arc| arc.reached);
-        let reached = reached.flat_map(|reached| [reached.offered, reached.put]);
+        let reached = reached.flat_map(|one| [one.offered, one.put, one.even]);
         let missed = f64::from(u8::from(self.missed));
         put.chain(reached).chain([self.coldest, missed]).collect()
     }
@@ -377,13 +377,13 @@ impl Stage for Arc {
         if let [.., coldest, missed] = saved {
             (self.coldest, self.missed) = (*coldest, *missed > 0.0);
         }
-        let mut pairs = saved.chunks_exact(2);
-        for ((_, sum), parts) in self.energies.iter_mut().zip(&mut pairs) {
+        for ((_, sum), parts) in self.energies.iter_mut().zip(saved.chunks_exact(2)) {
             *sum = Sum::restored(parts);
         }
-        for (arc, pair) in self.arcs.iter_mut().zip(pairs) {
-            let [offered, put] = [pair[0], pair[1]];
-            arc.reached = Reached { offered, put };
+        let arcs = saved.get(2 * self.energies.len()..).unwrap_or_default();
+        for (arc, parts) in self.arcs.iter_mut().zip(arcs.chunks_exact(3)) {
+            let [offered, put, even] = [parts[0], parts[1], parts[2]];
+            arc.reached = Reached { offered, put, even };
         }
     }
 }

@@ -11,12 +11,16 @@ pub(super) const EVERY: u64 = 64;
 /// Part of its heat below which an arc is told to miss the metal, and above which to give more than it holds.
 const LITTLE: f64 = 0.5;
 const MUCH: f64 = 1.5;
+/// Part by which values in the middles of particles may differ from the means over them.
+const APART: f64 = 0.02;
 
 /// What an arc has offered and put in, summed over the looks \[W\].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(super) struct Reached {
     pub(super) offered: f64,
     pub(super) put: f64,
+    /// The same with the means of the tables over the particles, in place of their values in the middle.
+    pub(super) even: f64,
 }
 
 impl Reached {
@@ -30,11 +34,26 @@ impl Reached {
             part if part > MUCH => {
                 "the tables are narrower than the particles, or the surface is steep"
             }
-            _ => return None,
+            _ => return self.unresolved(number),
         };
         Some(format!(
             "arc {number}: {percent:.1} % of the heat that its tables hold falls on the metal: {what}"
         ))
+    }
+}
+
+impl Reached {
+    /// What is told where values in the middles of particles are not the means over them.
+    fn unresolved(&self, number: usize) -> Option<String> {
+        let part = self.put / self.even;
+        ((part - 1.0).abs() > APART).then(|| {
+            format!(
+                "arc {number}: in the middles of the particles the tables give {:.1} % of what they hold over them, where {:.0} % \
+                 apart may be: they are too narrow for this spacing",
+                100.0 * part,
+                100.0 * APART
+            )
+        })
     }
 }
 
@@ -57,17 +76,21 @@ impl Arc {
     /// Compares what the tables of each arc hold with what of it falls on the metal now.
     pub(super) fn compare(&mut self, skin: &Skin<'_>, state: &State) -> Result<(), StageError> {
         let exposed = &state.exposed;
-        let mut put = vec![0.0; self.arcs.len()];
+        let mut found = vec![[0.0; 2]; self.arcs.len()];
         for &a in exposed {
-            let Some(spot) = self.lit(skin, a as usize) else {
+            let Some(spot) = self.lit(skin, a as usize, self.metal.spacing) else {
                 continue;
             };
             for stand in &self.stands {
                 let from = [0, 1].map(|k| spot.at[k] - stand.axis[k]);
                 let tables = self.arcs[stand.arc].fluxes.iter();
                 for flux in tables.filter(|flux| flux.table().is_some()) {
-                    let (mean, _) = flux.over(from, self.metal.spacing, 0.0, [0.0, 1.0])?;
-                    put[stand.arc] += stand.level * spot.area * mean.abs();
+                    let (spacing, times) = (self.metal.spacing, [0.0, 1.0]);
+                    let (taken, _) = flux.over(from, spacing, 0.0, times)?;
+                    let (even, _) = flux.even(from, spacing, 0.0, times)?;
+                    let sums = &mut found[stand.arc];
+                    let power = stand.level * spot.area;
+                    *sums = [sums[0] + power * taken.abs(), sums[1] + power * even.abs()];
                 }
             }
         }
@@ -76,8 +99,9 @@ impl Arc {
             let here = (state.faces).part_here(stand.axis, [0.0, 0.0, 1.0], self.metal.spacing);
             arc.reached.offered += here * stand.level * arc.held;
         }
-        for (arc, put) in self.arcs.iter_mut().zip(put) {
+        for (arc, [put, even]) in self.arcs.iter_mut().zip(found) {
             arc.reached.put += put;
+            arc.reached.even += even;
         }
         Ok(())
     }
@@ -120,10 +144,16 @@ mod tests {
         let reached = |put| Reached {
             offered: 100.0,
             put,
+            even: put,
         };
         assert_eq!(reached(60.0).warning(0), None);
         assert!(reached(160.0).warning(0).unwrap().contains("160.0 %"));
         assert!(reached(0.0).warning(1).unwrap().starts_with("arc 1: 0.0 %"));
         assert_eq!(Reached::default().warning(0), None);
+        let narrow = Reached {
+            even: 90.0,
+            ..reached(93.0)
+        };
+        assert!(narrow.warning(0).unwrap().contains("give 103.3 %"));
     }
 }

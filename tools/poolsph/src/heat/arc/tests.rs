@@ -334,6 +334,23 @@ fn an_arc_whose_tables_fall_beside_the_plate_is_told() {
 }
 
 #[test]
+fn an_arc_narrower_than_the_particles_is_told() {
+    // Cones between the middles of particles, which stand 1 m apart.
+    let told = |reach: f64| {
+        let cone = artefact::Table::new(2)
+            .column("radius_m", "m", [0.0, reach])
+            .column("heat_flux_radiation_w_m2", "W/m2", [1e6, 0.0]);
+        let parameters = serde_json::from_value(json!({"parts": ["radiation"]})).unwrap();
+        let caloric = Shared::new(plain(1e9, 1.0, None));
+        let mut arc = Arc::new(&parameters, caloric, METAL, Some(&cone)).unwrap();
+        arc.advance(&mut plate(300.0), 1e-4).unwrap();
+        arc.warnings()
+    };
+    assert!(told(8.0).is_empty(), "{:?}", told(8.0));
+    assert_eq!(told(1.3).len(), 1, "{:?}", told(1.3));
+}
+
+#[test]
 fn metal_colder_than_the_gas_is_known_for_is_told() {
     let told = |first: f64| {
         let gas =

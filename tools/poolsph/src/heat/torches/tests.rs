@@ -104,7 +104,7 @@ fn what_lies_outside_is_lost_where_it_is_asked_for_and_told() {
     aside.beyond = Beyond::Inside;
     let (gained, stage) = heated(aside, 0.001, &[0.0]);
     assert!((gained / 6.0 - 1.0).abs() < 1e-9, "{gained}");
-    assert!(stage.warnings()[0].contains("whole power"));
+    assert!(stage.warnings()[0].contains("given to it too"));
 }
 
 /// What a torch that leans by 45 degrees gives to plates, by the height up to which they lie \[J\].
