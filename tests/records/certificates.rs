@@ -64,7 +64,9 @@ fn without_names(node: &mut Value) {
         Value::Object(map) => {
             let choices = map.get("anyOf").and_then(Value::as_array);
             let own = choices.and_then(|choices| match choices.as_slice() {
-                [own, name] if name["description"] == "A substance of this scene." => Some(own.clone()),
+                [own, name] if name["description"] == "A substance of this scene." => {
+                    Some(own.clone())
+                }
                 _ => None,
             });
             match own {
