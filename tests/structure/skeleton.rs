@@ -39,7 +39,7 @@ const PROGRAM: [&str; 11] = [
 const SETUP: &str = "setup";
 
 /// Modules of physics that read the scene all the same.
-const READING: [(&str, &str); 18] = [
+const READING: [(&str, &str); 15] = [
     ("emfield", "cloud"),
     ("emfield", "cloud/build"),
     ("emfield", "cloud/build/cells"),
@@ -47,15 +47,12 @@ const READING: [(&str, &str); 18] = [
     ("emfield", "cloud/build/inner"),
     ("emfield", "cloud/build/layers"),
     ("emfield", "cloud/layout"),
-    ("heatsph", "boundary/compile"),
     ("heatsph", "cloud"),
     ("heatsph", "cloud/cut"),
     ("heatsph", "cloud/lattice"),
     ("heatsph", "cloud/rings"),
     ("heatsph", "cloud/shells"),
     ("heatsph", "cloud/shift"),
-    ("heatsph", "material"),
-    ("heatsph", "material/stored"),
     ("heatsph", "operator"),
     ("heatsph", "steady"),
 ];

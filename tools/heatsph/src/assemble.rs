@@ -10,7 +10,7 @@ use run::property::{Arguments, OutOfRange};
 use crate::boundary::{self, Surface};
 use crate::cloud::{Cloud, room};
 use crate::material::cells::Ground;
-use crate::material::{Materials, PLACE};
+use crate::material::{self, PLACE};
 use crate::operator::Links;
 use crate::scene::Scene;
 use crate::source::Source;
@@ -28,7 +28,7 @@ const SOURCE: [&str; 6] = ["x", "y", "z", "r", "T", "t"];
 pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
     let (body, cloud) = filled(scene)?;
     places::monitors(scene, &body)?;
-    let surface = boundary::compile(scene, &cloud)?;
+    let surface = boundary::setup::surface(scene, &cloud)?;
     let at = "/initial_temperature_k";
     let fault = |at: &str, error: OutOfRange| vec![Fault::at(at, error.to_string())];
     let curve = scene
@@ -41,7 +41,7 @@ pub fn system(scene: &Scene) -> Result<(System, Vec<f64>), Vec<Fault>> {
         .map(|x| curve.kelvin(&Arguments::at(*x, 0.0)));
     let mut temperature: Vec<f64> = values.collect::<Result<_, _>>().map_err(|e| fault(at, e))?;
     hold(&surface, &cloud, &mut temperature)?;
-    let materials = Materials::new(scene, range(scene, &surface, &temperature))?;
+    let materials = material::setup::materials(scene, range(scene, &surface, &temperature))?;
     places::mixtures(scene, &materials, &cloud)?;
     let source = match &scene.source_w_m3 {
         Some(property) => Some(

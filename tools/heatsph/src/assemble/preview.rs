@@ -18,7 +18,7 @@ const INSULATED: &str = "insulated";
 /// Faults of the scene.
 pub fn preview(scene: &Scene) -> Result<Preview, Vec<Fault>> {
     let (_, cloud) = filled(scene)?;
-    let surface = boundary::compile(scene, &cloud)?;
+    let surface = boundary::setup::surface(scene, &cloud)?;
     let mut preview = Preview::new(match scene.dimensions {
         2 => Coordinates::Plane,
         _ => Coordinates::Space,

@@ -1,6 +1,6 @@
 //! Heat through the surface.
 //!
-//! Each patch of surface has the conditions of the scene's entries that name its face. The heat into the body is
+//! Each patch of surface has the conditions of the entries that name its face. The heat into the body is
 //! (Rong and Kisu 2010, eq. 2, with the normal that the errata ask for)
 //!
 //! ```text
@@ -13,18 +13,18 @@
 //! depth d, surface and point are d/k apart, and `k (T - T_i) / d = q(T)` gives the temperature of the surface.
 //! No shape factor (zeta of eq. 5) is needed, on faces or on curves.
 
-mod compile;
+mod cover;
 mod factor;
 mod part;
+pub mod setup;
 pub(crate) mod shade;
 mod tangent;
 
 use run::property::{Arguments, Curve, OutOfRange};
 
 use crate::source::cubature::{Piece, When, ends};
+use part::Extent;
 use shapes::frame::Vector;
-
-pub use compile::compile;
 
 /// Constant of Stefan and Boltzmann \[W/(m2 K4)\] (exact in the SI of 2019).
 pub const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
@@ -80,6 +80,13 @@ pub enum Condition {
     Radiation(Curve, Curve),
 }
 
+/// A condition, its name, and where it holds.
+struct Entry {
+    name: String,
+    condition: Condition,
+    extent: Extent,
+}
+
 /// A condition on a patch of surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Film {
@@ -111,7 +118,7 @@ pub struct Held {
 /// All that happens at the surface.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Surface {
-    /// Conditions, one per entry of the scene.
+    /// Conditions, one per entry.
     pub conditions: Vec<Condition>,
     /// Names of the entries.
     pub names: Vec<String>,

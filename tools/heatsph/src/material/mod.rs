@@ -6,14 +6,13 @@ pub mod enthalpy;
 mod holds;
 mod meetings;
 pub mod path;
+pub mod setup;
 mod stored;
 mod stretches;
 pub mod volumetric;
 
 use run::property::{Arguments, Curve, OutOfRange};
-use run::{Fault, property::Property};
 
-use crate::scene::{Material, Scene};
 use conductor::Conductor;
 use enthalpy::Enthalpy;
 pub use meetings::Meetings;
@@ -50,7 +49,7 @@ struct Kind {
     law: Law,
 }
 
-/// All materials of a scene.
+/// All materials of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Materials {
     kinds: Vec<Kind>,
@@ -66,60 +65,6 @@ pub struct Materials {
 }
 
 impl Materials {
-    /// The materials of a scene whose temperatures lie within `range` \[K\] at the start.
-    ///
-    /// # Errors
-    /// Faults of the scene.
-    pub fn new(scene: &Scene, range: (f64, f64)) -> Result<Self, Vec<Fault>> {
-        let mut faults = Vec::new();
-        let (mut conductors, mut enthalpies) = (Vec::new(), Vec::new());
-        let mut kinds = Vec::new();
-        for (number, material) in scene.materials.iter().enumerate() {
-            let at = format!("/materials/{number}");
-            match kind(
-                material,
-                &at,
-                scene.dimensions,
-                range,
-                &mut conductors,
-                &mut enthalpies,
-            ) {
-                Ok(kind) => kinds.push(kind),
-                Err(found) => faults.extend(found),
-            }
-        }
-        if !faults.is_empty() {
-            return Err(faults);
-        }
-        let mut contact = vec![0.0; kinds.len() * kinds.len()];
-        for (number, resistance) in scene.contacts.iter().enumerate() {
-            let mut sides = [0; 2];
-            for (side, name) in resistance.between.iter().enumerate() {
-                match scene.materials.iter().position(|m| m.name == *name) {
-                    Some(found) => sides[side] = found,
-                    None => faults.push(Fault::at(
-                        &format!("/contacts/{number}/between/{side}"),
-                        format!("there is no material \"{name}\""),
-                    )),
-                }
-            }
-            let [a, b] = sides;
-            contact[a * kinds.len() + b] = resistance.resistance_m2_k_w;
-            contact[b * kinds.len() + a] = resistance.resistance_m2_k_w;
-        }
-        if !faults.is_empty() {
-            return Err(faults);
-        }
-        Ok(Self {
-            kinds,
-            conductors,
-            enthalpies,
-            range,
-            contact,
-            dimensions: scene.dimensions,
-        })
-    }
-
     /// Number of materials.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -251,105 +196,6 @@ pub fn arguments(x: Vector, temperature: f64, time: f64) -> Arguments {
         temperature,
         ..Arguments::at(x, time)
     }
-}
-
-fn alone(fault: Fault) -> Vec<Fault> {
-    vec![fault]
-}
-
-fn kind(
-    material: &Material,
-    at: &str,
-    dimensions: usize,
-    range: (f64, f64),
-    conductors: &mut Vec<Conductor>,
-    enthalpies: &mut Vec<Enthalpy>,
-) -> Result<Kind, Vec<Fault>> {
-    let stored = Stored::new(material, at, range, enthalpies).map_err(alone)?;
-    let law = match (&material.conductivity_w_m_k, &material.mixture) {
-        (Some(property), None) => law(
-            property,
-            &format!("{at}/conductivity_w_m_k"),
-            range,
-            conductors,
-        )?,
-        (None, Some(constituents)) => {
-            let mut parts = Vec::new();
-            for (number, constituent) in constituents.iter().enumerate() {
-                let at = format!("{at}/mixture/{number}");
-                let fraction = constituent
-                    .fraction
-                    .compile(&format!("{at}/fraction"), &PLACE)
-                    .map_err(alone)?;
-                let at = format!("{at}/conductivity_w_m_k");
-                let curve = constituent
-                    .conductivity_w_m_k
-                    .compile_positive(&at, &["T"], "W/(m K)")
-                    .map_err(alone)?;
-                parts.push(Part {
-                    fraction,
-                    conductor: tabulate(curve, &at, range, conductors)?,
-                });
-            }
-            Law::Sum(parts)
-        }
-        (Some(_), Some(_)) => {
-            let what = "\"conductivity_w_m_k\" and \"mixture\" exclude each other";
-            return Err(vec![Fault::at(&format!("{at}/mixture"), what)]);
-        }
-        (None, None) => {
-            let what = "a conductivity is missing: give \"conductivity_w_m_k\" or \"mixture\"";
-            return Err(vec![Fault::at(at, what)]);
-        }
-    };
-    Ok(Kind {
-        region: material
-            .region
-            .as_ref()
-            .map(|shape| Body::new(shape, dimensions)),
-        stored,
-        law,
-    })
-}
-
-/// The law of a property: a function of place, or of temperature, or of both.
-fn law(
-    property: &Property,
-    at: &str,
-    range: (f64, f64),
-    conductors: &mut Vec<Conductor>,
-) -> Result<Law, Vec<Fault>> {
-    let all = property
-        .compile_positive(at, &["x", "y", "z", "r", "T"], "W/(m K)")
-        .map_err(alone)?;
-    if property.compile(at, &["T"]).is_ok() {
-        return Ok(Law::Sum(vec![Part {
-            fraction: Curve::Constant(1.0),
-            conductor: tabulate(all, at, range, conductors)?,
-        }]));
-    }
-    if let Ok(fraction) = property.compile(at, &PLACE) {
-        return Ok(Law::Sum(vec![Part {
-            fraction,
-            conductor: tabulate(Curve::Constant(1.0), at, range, conductors)?,
-        }]));
-    }
-    Ok(Law::Formula(all))
-}
-
-fn tabulate(
-    curve: Curve,
-    at: &str,
-    range: (f64, f64),
-    conductors: &mut Vec<Conductor>,
-) -> Result<usize, Vec<Fault>> {
-    let conductor = Conductor::new(curve, range.0, range.1)
-        .map_err(|error| vec![Fault::at(at, error.to_string())])?;
-    let place = conductors.iter().position(|known| *known == conductor);
-    Ok(place.unwrap_or_else(|| {
-        conductors.push(conductor);
-        conductors.len() - 1
-    }))
 }
 
 #[cfg(test)]

@@ -1,15 +1,11 @@
 //! What the unit volume of a material stores: density times specific heat, of place and temperature.
 
-use run::Fault;
 use run::property::{Arguments, Curve, OutOfRange};
 
+use super::PLACE;
 use super::enthalpy::Enthalpy;
 use super::volumetric::Volumetric;
-use crate::scene::Material;
 use shapes::frame::Vector;
-
-/// What a property of place and temperature may depend on.
-const ALL: [&str; 5] = ["x", "y", "z", "r", "T"];
 
 /// rho c of a material, as a factor that depends on place and one that depends on temperature.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,67 +19,41 @@ pub(super) struct Stored {
 }
 
 impl Stored {
-    /// What a material of a scene stores; a function of temperature that is not yet among `functions` joins them,
-    /// tabulated over `range` \[K\].
+    /// What a material stores, from density \[kg/m3\] and specific heat \[J/(kg K)\]; a function of temperature that is
+    /// not yet among `functions` joins them, tabulated over `range` \[K\].
     pub(super) fn new(
-        material: &Material,
-        at: &str,
+        factors: [Curve; 2],
         range: (f64, f64),
         functions: &mut Vec<Enthalpy>,
-    ) -> Result<Self, Fault> {
-        let properties = [
-            (&material.density_kg_m3, "density_kg_m3", "kg/m3"),
-            (
-                &material.specific_heat_j_kg_k,
-                "specific_heat_j_kg_k",
-                "J/(kg K)",
-            ),
-        ];
+    ) -> Result<Self, OutOfRange> {
         let [mut place, mut both, mut warm] = [const { Vec::new() }; 3];
-        let mut blamed = at.to_owned();
-        for (property, key, unit) in properties {
-            let path = format!("{at}/{key}");
-            let curve = property.compile_positive(&path, &ALL, unit)?;
-            let here = ALL[..4].iter().any(|name| curve.depends_on(name));
+        for curve in factors {
+            let here = PLACE.iter().any(|name| curve.depends_on(name));
             let of = match (here, curve.depends_on("T")) {
                 (_, false) => &mut place,
                 (false, true) => &mut warm,
                 (true, true) => &mut both,
             };
-            if curve.depends_on("T") {
-                blamed = path;
-            }
             of.push(curve);
         }
-        if both.is_empty() && warm.is_empty() {
-            return Ok(Self {
-                place,
-                temperature: None,
-                both,
-            });
-        }
+        let mut temperature = None;
         if !both.is_empty() {
             both.append(&mut warm);
-            return Ok(Self {
-                place,
-                temperature: None,
-                both,
-            });
+        } else if !warm.is_empty() {
+            let law = Volumetric {
+                factors: warm,
+                place: [0.0; 3],
+            };
+            let table = Enthalpy::new(law, range)?;
+            let known = functions.iter().position(|known| *known == table);
+            temperature = Some(known.unwrap_or_else(|| {
+                functions.push(table);
+                functions.len() - 1
+            }));
         }
-        let law = Volumetric {
-            factors: warm,
-            place: [0.0; 3],
-        };
-        let table = Enthalpy::new(law, range);
-        let table = table.map_err(|error| Fault::at(&blamed, error.to_string()))?;
-        let known = functions.iter().position(|known| *known == table);
-        let number = known.unwrap_or_else(|| {
-            functions.push(table);
-            functions.len() - 1
-        });
         Ok(Self {
             place,
-            temperature: Some(number),
+            temperature,
             both,
         })
     }

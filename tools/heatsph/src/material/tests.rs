@@ -11,7 +11,7 @@ fn materials(text: &str, contacts: &str) -> Materials {
             "points": {{"spacing_m": 0.1}}, "initial_temperature_k": 0,
             "materials": {text}, "contacts": {contacts}}}"#
     );
-    Materials::new(&serde_json::from_str(&scene).unwrap(), (0.0, 1.0)).unwrap()
+    setup::materials(&serde_json::from_str(&scene).unwrap(), (0.0, 1.0)).unwrap()
 }
 
 const TWO: &str = r#"[
