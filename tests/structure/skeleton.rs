@@ -39,7 +39,7 @@ const PROGRAM: [&str; 11] = [
 const SETUP: &str = "setup";
 
 /// Modules of physics that read the scene all the same.
-const READING: [(&str, &str); 15] = [
+const READING: [(&str, &str); 9] = [
     ("emfield", "cloud"),
     ("emfield", "cloud/build"),
     ("emfield", "cloud/build/cells"),
@@ -47,12 +47,6 @@ const READING: [(&str, &str); 15] = [
     ("emfield", "cloud/build/inner"),
     ("emfield", "cloud/build/layers"),
     ("emfield", "cloud/layout"),
-    ("heatsph", "cloud"),
-    ("heatsph", "cloud/cut"),
-    ("heatsph", "cloud/lattice"),
-    ("heatsph", "cloud/rings"),
-    ("heatsph", "cloud/shells"),
-    ("heatsph", "cloud/shift"),
     ("heatsph", "operator"),
     ("heatsph", "steady"),
 ];

@@ -1,7 +1,7 @@
 //! A lattice along the axes, cut by a body: points well inside, none on the surface.
 
+use super::points::Points;
 use super::{Cloud, CloudError, shift};
-use crate::scene::Points;
 use shapes::Body;
 use shapes::surface;
 

@@ -1,7 +1,7 @@
 //! The lattice of a box, with points on its faces.
 
+use super::points::Points;
 use super::{Cloud, Patch, gaps, graded, widths};
-use crate::scene::Points;
 
 /// Fills a box of the given half extents about the origin.
 pub(super) fn fill(half: [f64; 3], points: &Points, dimensions: usize) -> Cloud {

@@ -7,12 +7,13 @@
 mod closure;
 mod cut;
 mod lattice;
+pub mod points;
 mod rings;
 pub mod room;
 mod shells;
 mod shift;
 
-use crate::scene::{Arrangement, Points};
+use points::{Arrangement, Points};
 use shapes::frame::{Vector, along, difference, dot};
 use shapes::surface::{self, Piece};
 use shapes::{Body, Kind};
@@ -128,7 +129,7 @@ impl Cloud {
         Ok(cloud)
     }
 
-    /// Adds the scene's further points.
+    /// Adds further points.
     fn add(&mut self, body: &Body, points: &Points) -> Result<(), CloudError> {
         for extra in &points.extra_m {
             let x = std::array::from_fn(|k| extra.get(k).copied().unwrap_or(0.0));

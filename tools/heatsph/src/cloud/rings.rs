@@ -3,8 +3,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::points::Points;
 use super::{Cloud, Patch, gaps, graded, widths};
-use crate::scene::Points;
 use shapes::frame::Vector;
 
 /// One ring and what its points stand for.

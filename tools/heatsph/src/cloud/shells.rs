@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
+use super::points::Points;
 use super::{Cloud, Patch};
-use crate::scene::Points;
 
 /// Fills a ball about the origin.
 pub(super) fn fill(radius: f64, points: &Points) -> Cloud {

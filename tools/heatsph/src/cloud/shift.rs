@@ -1,7 +1,7 @@
 //! Random shifts of points.
 
 use super::Cloud;
-use crate::scene::Points;
+use super::points::Points;
 use shapes::frame::Vector;
 
 /// A number in [-1, 1) from a seed and two counters (the mixing of Steele, Lea and Flood 2014, "SplitMix").

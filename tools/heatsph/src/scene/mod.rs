@@ -5,7 +5,6 @@ mod faults;
 
 pub mod material;
 pub mod method;
-pub mod points;
 
 use run::property::Property;
 use schemars::JsonSchema;
@@ -15,8 +14,9 @@ use torch::Torch;
 pub use boundary::Boundary;
 pub use material::{Constituent, Contact, Material};
 pub use method::{Operator, Output, Steady, Time};
-pub use points::{Arrangement, Points};
 pub use shapes::Shape;
+
+use crate::cloud::points::Points;
 
 /// Heat conduction in a body.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
