@@ -39,7 +39,7 @@ const PROGRAM: [&str; 11] = [
 const SETUP: &str = "setup";
 
 /// Modules of physics that read the scene all the same.
-const READING: [(&str, &str); 9] = [
+const READING: [(&str, &str); 7] = [
     ("emfield", "cloud"),
     ("emfield", "cloud/build"),
     ("emfield", "cloud/build/cells"),
@@ -47,8 +47,6 @@ const READING: [(&str, &str); 9] = [
     ("emfield", "cloud/build/inner"),
     ("emfield", "cloud/build/layers"),
     ("emfield", "cloud/layout"),
-    ("heatsph", "operator"),
-    ("heatsph", "steady"),
 ];
 
 fn source(stage: &str) -> std::path::PathBuf {

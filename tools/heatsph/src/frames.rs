@@ -178,25 +178,37 @@ impl Output {
             ));
         }
     }
+}
 
-    /// Totals of a steady state.
-    pub fn close_steady(&self, system: &System, rates: &Rates, session: &mut Session) {
-        let (_, watt) = units(system);
-        let through: f64 = rates.entries.iter().sum();
-        let gross: f64 = rates.entries.iter().map(|e| e.abs()).sum::<f64>() + rates.source.abs();
-        for (name, heat) in system.surface.names.iter().zip(&rates.entries) {
-            session.closing(&format!("heat_rate {name}"), watt, *heat);
-        }
-        if system.has_source() {
-            session.closing("heat_rate source", watt, rates.source);
-        }
-        let relative = if gross > 0.0 {
-            (through + rates.source).abs() / gross
-        } else {
-            0.0
-        };
-        session.closing("energy_balance", "1", relative);
+/// Writes a steady state and its totals.
+///
+/// # Errors
+/// When a value is no number or the disk refuses.
+pub fn steady(
+    scene: &Scene,
+    system: &System,
+    state: &State,
+    rates: &Rates,
+    session: &mut Session,
+) -> Result<(), Failure> {
+    let mut output = Output::new(scene, system, &state.temperature);
+    output.write(system, state, rates, Event::whole(0.0), session)?;
+    let (_, watt) = units(system);
+    let through: f64 = rates.entries.iter().sum();
+    let gross: f64 = rates.entries.iter().map(|e| e.abs()).sum::<f64>() + rates.source.abs();
+    for (name, heat) in system.surface.names.iter().zip(&rates.entries) {
+        session.closing(&format!("heat_rate {name}"), watt, *heat);
     }
+    if system.has_source() {
+        session.closing("heat_rate source", watt, rates.source);
+    }
+    let relative = if gross > 0.0 {
+        (through + rates.source).abs() / gross
+    } else {
+        0.0
+    };
+    session.closing("energy_balance", "1", relative);
+    Ok(())
 }
 
 /// Units of heat and of its rate: per metre of depth in a plane scene.

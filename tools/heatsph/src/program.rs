@@ -7,10 +7,11 @@ use run::{Estimate, Failure, Fault, Inputs, Plan, Preview, Session, Tool};
 
 use crate::assemble;
 use crate::march::{State, choice};
+use crate::operator::Operator;
+use crate::scene::Scene;
 use crate::scene::method::Beyond;
-use crate::scene::{Operator, Scene};
 use crate::system::{Rates, System};
-use crate::{simulate, steady};
+use crate::{frames, simulate, steady};
 
 /// Heat conduction by smoothed particles.
 #[derive(Debug)]
@@ -108,7 +109,10 @@ impl Tool for HeatSph {
             session.closing("balance_quadratic_error", "1", balance.quadratic);
         }
         match scene.steady {
-            Some(rule) => steady::solve(&scene, rule, &mut system, temperature, session),
+            Some(rule) => {
+                let (state, rates) = steady::solve(rule, &mut system, temperature, session)?;
+                frames::steady(&scene, &system, &state, &rates, session)
+            }
             None => simulate::march(&scene, &mut system, temperature, session),
         }
     }

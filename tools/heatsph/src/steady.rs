@@ -2,12 +2,34 @@
 //! temperature (what Rong and Kisu 2010, section 1, leave to "another paper").
 
 use run::{Failure, Session};
+use schemars::JsonSchema;
+use serde::Deserialize;
 
-use crate::frames::{Event, Output};
 use crate::march::{State, too_cold};
-use crate::scene::{Scene, Steady};
 use crate::solve::{Effort, Goal, Problem, SolveError, Solver};
 use crate::system::{Rates, System, extent};
+
+/// The steady state, without a march.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Steady {
+    /// Largest residual at which Newton's method ends, relative to the heat that flows.
+    #[serde(default = "tolerance")]
+    #[schemars(range(min = 1e-15, max = 1e-2), extend("x-unit" = "1"))]
+    pub tolerance: f64,
+    /// Greatest number of Newton steps.
+    #[serde(default = "newton_steps")]
+    #[schemars(range(min = 1))]
+    pub newton_steps: usize,
+}
+
+fn tolerance() -> f64 {
+    1e-12
+}
+
+fn newton_steps() -> usize {
+    60
+}
 
 /// How often tables of conductivity are widened.
 const WIDENINGS: usize = 20;
@@ -16,17 +38,16 @@ const WIDENINGS: usize = 20;
 const POWERS: (f64, f64) = (-40.0, 60.0);
 const HALVINGS: usize = 40;
 
-/// Solves and writes the steady state.
+/// Solves for the steady state: temperatures, and the heat that passes then.
 ///
 /// # Errors
 /// When the system has no steady state, or none is found.
 pub fn solve(
-    scene: &Scene,
     steady: Steady,
     system: &mut System,
     temperature: Vec<f64>,
     session: &mut Session,
-) -> Result<(), Failure> {
+) -> Result<(State, Rates), Failure> {
     let mut state = State::new(system, temperature);
     let mut rates = Rates::default();
     let mut solver = Solver::new(system);
@@ -80,10 +101,7 @@ pub fn solve(
     session.closing("newton_steps", "1", newton as f64);
     session.closing("linear_iterations", "1", iterations as f64);
     session.memory("matrix and preconditioner", solver.bytes());
-    let mut output = Output::new(scene, system, &state.temperature);
-    output.write(system, &state, &rates, Event::whole(0.0), session)?;
-    output.close_steady(system, &rates, session);
-    Ok(())
+    Ok((state, rates))
 }
 
 /// The effort of a solve; one that did not converge is told.
@@ -164,7 +182,7 @@ fn unsettled(range: (f64, f64)) -> String {
     )
 }
 
-/// Refuses a steady state below 0 K; `usual` is a temperature of the scene \[K\].
+/// Refuses a steady state below 0 K; `usual` is one that is given \[K\].
 fn warm(system: &System, state: &State, usual: f64) -> Result<(), Failure> {
     match state.cold(usual) {
         Some(i) => Err(Failure::Diverged {

@@ -1,8 +1,7 @@
 use super::cells::{Cells, Ground};
 use super::*;
 use crate::cloud::Cloud;
-use crate::operator::Links;
-use crate::scene::Operator;
+use crate::operator::{Links, Operator};
 use run::property::{Formula, Property};
 
 fn materials(text: &str, contacts: &str) -> Materials {

@@ -22,13 +22,50 @@ mod net;
 use std::sync::Arc;
 
 use krylov::Pattern;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 use crate::cloud::Cloud;
-use crate::scene::Operator;
-use crate::scene::method::Corrected;
 use shapes::frame::Vector;
 
 pub use balance::Balance;
+
+/// The pair form of the paper.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Pair {
+    /// Smoothing length over spacing; when it is absent 1.0 on plain lattices, elsewhere 1.075 in a
+    /// plane and 1.05 in space.
+    #[schemars(range(min = 0.6, max = 3.0), extend("x-unit" = "1"))]
+    pub smoothing: Option<f64>,
+}
+
+/// The balanced pair form.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Corrected {
+    /// Smoothing length over spacing; when it is absent 1.0 on plain lattices, elsewhere 1.075 in a
+    /// plane and 1.05 in space.
+    #[schemars(range(min = 0.8, max = 3.0), extend("x-unit" = "1"))]
+    pub smoothing: Option<f64>,
+}
+
+/// How the divergence of the heat flux is formed.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Operator {
+    /// The pair form of Rong and Kisu (2010), eq. 3, with the errata: kernel weights as they are.
+    Pair(Pair),
+    /// Kernel weights corrected pair by pair, so that linear fields are exact on every cloud and up to the
+    /// boundary; heat passes from point to point without loss.
+    Corrected(Corrected),
+}
+
+impl Default for Operator {
+    fn default() -> Self {
+        Self::Corrected(Corrected::default())
+    }
+}
 
 /// Links between points, symmetric.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,5 +1,4 @@
 use super::*;
-use crate::scene::method::{Corrected, Pair};
 use shapes::Body;
 use shapes::frame::{difference, dot};
 

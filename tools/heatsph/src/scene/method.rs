@@ -1,44 +1,7 @@
-//! The operator, the march in time, the steady solve, and what is written.
+//! The march in time, and what is written.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-
-/// The pair form of the paper.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Pair {
-    /// Smoothing length over spacing; when it is absent 1.0 on plain lattices, elsewhere 1.075 in a
-    /// plane and 1.05 in space.
-    #[schemars(range(min = 0.6, max = 3.0), extend("x-unit" = "1"))]
-    pub smoothing: Option<f64>,
-}
-
-/// The balanced pair form.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Corrected {
-    /// Smoothing length over spacing; when it is absent 1.0 on plain lattices, elsewhere 1.075 in a
-    /// plane and 1.05 in space.
-    #[schemars(range(min = 0.8, max = 3.0), extend("x-unit" = "1"))]
-    pub smoothing: Option<f64>,
-}
-
-/// How the divergence of the heat flux is formed.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Operator {
-    /// The pair form of Rong and Kisu (2010), eq. 3, with the errata: kernel weights as they are.
-    Pair(Pair),
-    /// Kernel weights corrected pair by pair, so that linear fields are exact on every cloud and up to the
-    /// boundary; heat passes from point to point without loss.
-    Corrected(Corrected),
-}
-
-impl Default for Operator {
-    fn default() -> Self {
-        Self::Corrected(Corrected::default())
-    }
-}
 
 /// What becomes of an explicit step beyond its limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
@@ -107,28 +70,6 @@ pub struct Time {
     pub stabilised: Option<Controlled>,
     /// Singly diagonally implicit Runge-Kutta of second order, L-stable (Alexander 1977).
     pub implicit: Option<Controlled>,
-}
-
-/// The steady state, without a march.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Steady {
-    /// Largest residual at which Newton's method ends, relative to the heat that flows.
-    #[serde(default = "steady_tolerance")]
-    #[schemars(range(min = 1e-15, max = 1e-2), extend("x-unit" = "1"))]
-    pub tolerance: f64,
-    /// Greatest number of Newton steps.
-    #[serde(default = "newton_steps")]
-    #[schemars(range(min = 1))]
-    pub newton_steps: usize,
-}
-
-fn steady_tolerance() -> f64 {
-    1e-12
-}
-
-fn newton_steps() -> usize {
-    60
 }
 
 /// A place whose temperature is written at every output.

@@ -13,10 +13,12 @@ use torch::Torch;
 
 pub use boundary::Boundary;
 pub use material::{Constituent, Contact, Material};
-pub use method::{Operator, Output, Steady, Time};
+pub use method::{Output, Time};
 pub use shapes::Shape;
 
 use crate::cloud::points::Points;
+use crate::operator::Operator;
+use crate::steady::Steady;
 
 /// Heat conduction in a body.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]

@@ -1,8 +1,7 @@
 use run::property::{Formula, Property};
 
 use super::*;
-use crate::operator::Links;
-use crate::scene::Operator;
+use crate::operator::{Links, Operator};
 
 fn curve(text: &str) -> Curve {
     let formula = Property::Formula(Formula {
