@@ -39,14 +39,12 @@ const PROGRAM: [&str; 11] = [
 const SETUP: &str = "setup";
 
 /// Modules of physics that read the scene all the same.
-const READING: [(&str, &str); 7] = [
+const READING: [(&str, &str); 5] = [
     ("emfield", "cloud"),
     ("emfield", "cloud/build"),
     ("emfield", "cloud/build/cells"),
     ("emfield", "cloud/build/count"),
     ("emfield", "cloud/build/inner"),
-    ("emfield", "cloud/build/layers"),
-    ("emfield", "cloud/layout"),
 ];
 
 fn source(stage: &str) -> std::path::PathBuf {

@@ -15,7 +15,20 @@ pub enum Geometry {
     Space,
 }
 
+/// Name of the wall of a ball.
+pub const BALL: &str = "sphere";
+
 impl Geometry {
+    /// Names of the walls of a box.
+    #[must_use]
+    pub fn walls(self) -> Vec<&'static str> {
+        match self {
+            Self::Axisymmetric => vec!["r-", "r+", "z-", "z+"],
+            Self::Plane => vec!["x-", "x+", "y-", "y+"],
+            Self::Space => vec!["x-", "x+", "y-", "y+", "z-", "z+"],
+        }
+    }
+
     /// Coordinates of a place: 2 or 3.
     #[must_use]
     pub fn dimensions(self) -> usize {

@@ -50,7 +50,7 @@ impl Frame {
                 }
                 Wall::Ball { centre, radius } => {
                     let blocks = (radius / (h * block)).ceil();
-                    let half = if layout.axisymmetric && k == 0 {
+                    let half = if layout.axisymmetric() && k == 0 {
                         0.0
                     } else {
                         blocks

@@ -5,8 +5,11 @@
 use shapes::Body;
 use shapes::frame::{Vector, difference, length};
 
-use crate::scene::points::{Refinement, Steps};
-use crate::scene::{BodyScene, Domain, Scene};
+use super::points::{Points, Refinement, Steps};
+use crate::geometry::{self, Geometry};
+
+/// Name of the medium around all bodies.
+pub const SURROUNDINGS: &str = "surroundings";
 
 /// The wall of the domain.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,9 +32,32 @@ pub enum Wall {
     },
 }
 
+impl Wall {
+    /// Names of its faces.
+    #[must_use]
+    pub fn faces(&self, geometry: Geometry) -> Vec<&'static str> {
+        match self {
+            Self::Box { .. } => geometry.walls(),
+            Self::Ball { .. } => vec![geometry::BALL],
+        }
+    }
+
+    /// Least extent of what it holds \[m\].
+    fn least(&self, dimensions: usize) -> f64 {
+        match self {
+            Self::Box { low, high, .. } => (0..dimensions)
+                .map(|k| high[k] - low[k])
+                .fold(f64::INFINITY, f64::min),
+            Self::Ball { radius, .. } => 2.0 * radius,
+        }
+    }
+}
+
 /// A body with its points' spacing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid {
+    /// Name.
+    pub name: String,
     /// Shape.
     pub body: Body,
     /// Distance of points along the surface \[m\].
@@ -40,6 +66,20 @@ pub struct Solid {
     pub reach: [f64; 2],
     /// Rise of the spacing of the lattice per distance from it, inside and outside.
     growth: [f64; 2],
+}
+
+impl Solid {
+    /// A body before it stands among others, without layers.
+    #[must_use]
+    pub fn new(name: String, body: Body, spacing: f64) -> Self {
+        Self {
+            name,
+            body,
+            spacing,
+            reach: [0.0; 2],
+            growth: [0.0; 2],
+        }
+    }
 }
 
 /// A region with finer points.
@@ -66,16 +106,16 @@ fn proportional(body: &Body, spacing: f64, dimensions: usize) -> f64 {
 /// Domain, bodies and wanted spacing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
+    /// What its coordinates are.
+    pub geometry: Geometry,
     /// 2 or 3.
     pub dimensions: usize,
     /// The wall.
     pub wall: Wall,
-    /// Bodies in the order of the scene.
+    /// Bodies; where two overlap, the first counts.
     pub solids: Vec<Solid>,
     /// Regions with finer points.
     finer: Vec<Finer>,
-    /// Whether r = x is a distance from the axis.
-    pub axisymmetric: bool,
     /// Finest spacing of the lattice \[m\].
     pub spacing: f64,
     /// Spacing where there is neither body nor refinement \[m\].
@@ -94,31 +134,14 @@ pub fn vector(coordinates: &[f64]) -> Vector {
     std::array::from_fn(|k| coordinates.get(k).copied().unwrap_or(0.0))
 }
 
-/// The wall of a domain, and the least extent of it \[m\].
-fn wall(domain: &Domain, dimensions: usize, axisymmetric: bool) -> (Wall, f64) {
-    match domain {
-        Domain::Box(b) => {
-            let (low, high) = (vector(&b.min_m), vector(&b.max_m));
-            let least = (0..dimensions).map(|k| high[k] - low[k]);
-            let axis = axisymmetric && low[0] <= 0.0;
-            let size = least.fold(f64::INFINITY, f64::min);
-            (Wall::Box { low, high, axis }, size)
-        }
-        Domain::Sphere(s) => {
-            let (centre, radius) = (vector(&s.centre_m), s.radius_m);
-            (Wall::Ball { centre, radius }, 2.0 * radius)
-        }
-    }
-}
-
 impl Layout {
     /// A ball in space without bodies, with lattices from one spacing to a greater one \[m\].
     pub(crate) fn ball(centre: Vector, radius: f64, [spacing, largest]: [f64; 2]) -> Self {
         Self {
+            geometry: Geometry::Space,
             dimensions: 3,
             wall: Wall::Ball { centre, radius },
             finer: Vec::new(),
-            axisymmetric: false,
             spacing,
             plain: largest,
             largest,
@@ -128,28 +151,17 @@ impl Layout {
         }
     }
 
-    /// The layout of a scene without faults.
+    /// Bodies within a wall, and how fine points are about them.
     #[must_use]
-    pub fn new(scene: &Scene) -> Self {
-        let dimensions = scene.geometry.dimensions();
-        let axisymmetric = scene.geometry == crate::geometry::Geometry::Axisymmetric;
-        let points = &scene.points;
-        let (wall, size) = wall(&scene.domain, dimensions, axisymmetric);
+    pub fn new(geometry: Geometry, wall: Wall, mut solids: Vec<Solid>, points: &Points) -> Self {
+        let dimensions = geometry.dimensions();
         let outward = |body: &Body, spacing: f64| {
             let own = || proportional(body, spacing, dimensions);
             points.outward.unwrap_or_else(own)
         };
-        let solid = |body: &BodyScene| {
-            let spacing = body.spacing_m.unwrap_or(points.spacing_m);
-            let body = Body::new(&body.shape, dimensions);
-            Solid {
-                growth: [points.inward, outward(&body, spacing)],
-                body,
-                spacing,
-                reach: [0.0; 2],
-            }
-        };
-        let solids: Vec<Solid> = scene.bodies.iter().map(solid).collect();
+        for solid in &mut solids {
+            solid.growth = [points.inward, outward(&solid.body, solid.spacing)];
+        }
         let finer = |refinement: &Refinement| {
             let (body, spacing) = (
                 Body::new(&refinement.shape, dimensions),
@@ -162,16 +174,20 @@ impl Layout {
             }
         };
         let finer: Vec<Finer> = points.refinements.iter().map(finer).collect();
-        let largest = points.largest_m.unwrap_or(size / 8.0).max(points.spacing_m);
+        let eighth = || wall.least(dimensions) / 8.0;
+        let largest = points
+            .largest_m
+            .unwrap_or_else(eighth)
+            .max(points.spacing_m);
         let all = solids.iter().map(|s| s.spacing);
         let finest = all
             .chain(finer.iter().map(|f| f.spacing))
             .fold(points.spacing_m, f64::min);
         Self {
+            geometry,
             dimensions,
             wall,
             finer,
-            axisymmetric,
             spacing: finest,
             plain: if solids.is_empty() {
                 points.spacing_m
@@ -183,6 +199,12 @@ impl Layout {
             smooth: points.steps == Steps::Smooth,
             solids,
         }
+    }
+
+    /// Whether r = x is a distance from the axis.
+    #[must_use]
+    pub fn axisymmetric(&self) -> bool {
+        self.geometry == Geometry::Axisymmetric
     }
 
     /// The same with points of lattices far from bodies so many times as far apart; those of surfaces, layers and beside them
@@ -239,13 +261,7 @@ impl Layout {
     /// Least extent of the domain over the finest spacing of its lattice.
     #[must_use]
     pub fn across(&self) -> f64 {
-        let size = match &self.wall {
-            Wall::Box { low, high, .. } => (0..self.dimensions)
-                .map(|k| high[k] - low[k])
-                .fold(f64::INFINITY, f64::min),
-            Wall::Ball { radius, .. } => 2.0 * radius,
-        };
-        size / self.spacing
+        self.wall.least(self.dimensions) / self.spacing
     }
 
     /// The medium at a place: 0 the surroundings, `k + 1` body `k`; the first body that holds it counts.
@@ -291,7 +307,8 @@ impl Layout {
     }
 
     /// The fastest that wanted spacings change per distance.
-    pub(super) fn steepest(&self) -> f64 {
+    #[must_use]
+    pub fn steepest(&self) -> f64 {
         let solids = self.solids.iter().flat_map(|solid| solid.growth);
         let finer = self.finer.iter().map(|finer| finer.growth);
         self.wider * solids.chain(finer).fold(0.0, f64::max)

@@ -3,7 +3,7 @@
 //! A cloud is all that the equations know of geometry: where points are, how far apart, to which medium they belong or
 //! which media they part, how much of a conductor each stands for. See [`Cloud`].
 //!
-//! - [`layout`]: which medium is where and how fine points should be; `build`: from a scene to its points, step by step;
+//! - [`layout`]: which medium is where and how fine points should be, by its [`points`]; [`setup`] makes it; `build`: from a scene to its points, step by step;
 //! - `lattice`: nested lattices; `occupied`: points already placed; `jitter`: random shifts.
 
 mod build;
@@ -11,6 +11,8 @@ pub(crate) mod jitter;
 pub(crate) mod lattice;
 pub mod layout;
 pub(crate) mod occupied;
+pub mod points;
+pub mod setup;
 
 pub use build::surface::Curvature;
 pub(crate) use build::surface::seeds;
@@ -186,7 +188,7 @@ impl Cloud {
     /// The fastest rise of the spacing of lattices per distance outward.
     #[must_use]
     pub fn steepest(scene: &Scene) -> f64 {
-        layout::Layout::new(scene).steepest()
+        setup::layout(scene).steepest()
     }
 
     /// Bodies of a scene that have too few points across: what to say of each.
@@ -210,7 +212,7 @@ impl Cloud {
     /// How many points a scene without faults has at least, and the memory of these and of their stencils \[byte\].
     #[must_use]
     pub fn least(scene: &Scene) -> [f64; 2] {
-        let least = build::count::least(scene, &layout::Layout::new(scene));
+        let least = build::count::least(scene, &setup::layout(scene));
         [least.points, least.bytes]
     }
 

@@ -5,8 +5,8 @@ use shapes::frame::Vector;
 use wls::{Condition, Plan, Reach, Rules, Search, Stencils, Wants};
 
 use super::Column;
-use crate::cloud::layout::{Layout, vector};
-use crate::cloud::{Class, Cloud};
+use crate::cloud::layout::vector;
+use crate::cloud::{self, Class, Cloud};
 use crate::geometry::Geometry;
 use crate::scene::{Interfaces, Scene};
 use crate::solve::setup::numerics;
@@ -81,7 +81,7 @@ impl Samples {
     /// # Errors
     /// Where one lies outside the domain, or too few points lie about it.
     pub fn new<const D: usize>(scene: &Scene, cloud: &Cloud) -> Result<Self, Failure> {
-        let layout = Layout::new(scene);
+        let layout = cloud::setup::layout(scene);
         let (own, paths) = places(scene);
         if own.is_empty() {
             return Ok(Self::default());

@@ -7,7 +7,8 @@ use super::driven::setup::{bars, windings};
 use super::medium::law::{Curve, Law};
 use super::parameters::Parameters;
 use crate::cloud::Cloud;
-use crate::cloud::layout::{Layout, vector};
+use crate::cloud::layout::vector;
+use crate::cloud::setup::layout;
 use crate::geometry::Geometry;
 use crate::magnetic::source::{C, Loop, MU0, Origin, Segment, Source, Uniform, Wire};
 use crate::magnetic::unknown::Unknown;
@@ -51,7 +52,7 @@ pub(crate) fn parameters(
 
 /// Media through which wires run.
 fn run(scene: &Scene, currents: &EddyCurrents) -> Vec<u16> {
-    let place = Layout::new(scene);
+    let place = layout(scene);
     let wire = |coil: &Coil| match coil {
         Coil::Wire(wire) => Some(place.medium(vector(&wire.place_m))),
         _ => None,

@@ -9,9 +9,10 @@ use shapes::shape::Sphere;
 use super::currents::{Harmonic, OuterReaction};
 use super::domain::BoxDomain;
 use super::{
-    Amplitude, BodyScene, Coil, Domain, EddyCurrents, ElectricPotential, Geometry, Layers, Method,
-    Output, Permeability, Points, Scene,
+    Amplitude, BodyScene, Coil, Domain, EddyCurrents, ElectricPotential, Geometry, Method, Output,
+    Permeability, Scene,
 };
+use crate::cloud::points::{Layers, Points};
 
 /// The wall of the field lies so many radii of the drop from its centre.
 const WALL: f64 = 10.0;

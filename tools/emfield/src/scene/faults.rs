@@ -9,6 +9,7 @@ use super::currents::RegionCoil;
 use super::method::{Interfaces, Way};
 use super::output::Closed;
 use super::{BodyScene, Coil, Domain, EddyCurrents, Geometry, Scene};
+use crate::geometry::BALL;
 
 /// What a potential may depend on.
 pub(crate) const PLACE: [&str; 4] = ["x", "y", "z", "r"];
@@ -234,11 +235,9 @@ impl Domain {
     /// Names of the walls, by number.
     #[must_use]
     pub fn walls(&self, geometry: Geometry) -> Vec<&'static str> {
-        match (self, geometry) {
-            (Self::Sphere(_), _) => vec!["sphere"],
-            (Self::Box(_), Geometry::Axisymmetric) => vec!["r-", "r+", "z-", "z+"],
-            (Self::Box(_), Geometry::Plane) => vec!["x-", "x+", "y-", "y+"],
-            (Self::Box(_), Geometry::Space) => vec!["x-", "x+", "y-", "y+", "z-", "z+"],
+        match self {
+            Self::Sphere(_) => vec![BALL],
+            Self::Box(_) => geometry.walls(),
         }
     }
 }

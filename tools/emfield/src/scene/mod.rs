@@ -11,7 +11,6 @@ pub mod liquid;
 pub mod method;
 pub mod output;
 pub(crate) mod permeability;
-pub mod points;
 pub mod potential;
 pub mod warmth;
 
@@ -27,9 +26,11 @@ pub use liquid::{ElectricField, Equilibrium, Liquid, LiquidMarch};
 pub use method::{Interfaces, Method, Solver};
 pub use output::Output;
 pub use permeability::Permeability;
-pub use points::{Arrangement, Layers, Points};
 pub use potential::Electrostatics;
 pub use warmth::{LiquidHeat, LiquidMelting, LiquidRadiation};
+
+use crate::cloud::layout::SURROUNDINGS;
+use crate::cloud::points::Points;
 
 /// Electric and magnetic fields of bodies.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
@@ -111,7 +112,7 @@ impl Scene {
     #[must_use]
     pub fn medium_name(&self, number: usize) -> &str {
         match number.checked_sub(1) {
-            None => "surroundings",
+            None => SURROUNDINGS,
             Some(body) => &self.bodies[body].name,
         }
     }

@@ -7,6 +7,7 @@ use shapes::rule::rule;
 use shapes::surface::Piece;
 
 use crate::cloud::layout::Layout;
+use crate::cloud::setup::layout;
 use crate::cloud::{Class, Cloud, SurfacePoint};
 use crate::geometry::Geometry;
 use crate::magnetic::setup::{source, unknown};
@@ -44,7 +45,7 @@ pub(crate) fn enclosing(scene: &Scene, cloud: &Cloud) -> Result<Vec<Enclosing>, 
     let finder = Finder {
         scene,
         cloud,
-        layout: Layout::new(scene),
+        layout: layout(scene),
         wires: wires(scene),
     };
     let (mut found, mut faults) = (Vec::new(), Vec::new());

@@ -224,7 +224,7 @@ impl<'a> Conductor<'a> {
             let place = along(seed.place, signed - sag * flat, seed.normal);
             let area = seed.area * column.widening(side, away);
             let mut volume = weight * (high - low) * area;
-            if self.layout.axisymmetric {
+            if self.layout.axisymmetric() {
                 volume *= TAU * place[0].max(0.0);
             }
             // Mean square of the distance from the middle, along the surface.
@@ -240,7 +240,7 @@ impl<'a> Conductor<'a> {
 
     /// The middle of the volume of a piece: a full turn holds more of it outside than inside.
     fn middle(&self, mut place: Vector, own: &[Vector; 3]) -> Vector {
-        if self.layout.axisymmetric && place[0] > 0.0 {
+        if self.layout.axisymmetric() && place[0] > 0.0 {
             place[0] += own[0][0] / place[0];
         }
         place
@@ -286,7 +286,7 @@ impl<'a> Conductor<'a> {
                 (centre.map(|c| c - radius), centre.map(|c| c + radius))
             }
         };
-        if self.layout.axisymmetric {
+        if self.layout.axisymmetric() {
             low[0] = low[0].max(0.0);
         }
         if self.medium > 0 {
@@ -336,7 +336,7 @@ impl<'a> Conductor<'a> {
             }
         }
         let mut volume = part * step.powi(self.layout.dimensions as i32);
-        if self.layout.axisymmetric {
+        if self.layout.axisymmetric() {
             volume *= TAU * x[0];
         }
         volume

@@ -13,7 +13,8 @@ use shapes::frame::{Vector, length};
 use shapes::surface::{Piece, pieces};
 
 use crate::cloud::layout::{Layout, Wall};
-use crate::scene::{Arrangement, Scene};
+use crate::cloud::points::Arrangement;
+use crate::scene::Scene;
 
 /// Most points of a cloud: their numbers have 32 bits.
 const MOST: f64 = 4e9;
@@ -183,10 +184,10 @@ fn lattice(layout: &Layout) -> f64 {
         Wall::Ball { centre, radius } => {
             middle = *centre;
             half[..dimensions].fill(*radius);
-            if layout.axisymmetric {
+            if layout.axisymmetric() {
                 (middle[0], half[0]) = (0.5 * radius, 0.5 * radius);
             }
-            let turn = if layout.axisymmetric { PI } else { 2.0 * PI };
+            let turn = if layout.axisymmetric() { PI } else { 2.0 * PI };
             let area = if dimensions == 3 {
                 4.0 * PI * radius * radius
             } else {
@@ -238,7 +239,7 @@ fn part(layout: &Layout, middle: Vector, half: Vector) -> Part {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cloud::Cloud;
+    use crate::cloud::{Cloud, setup};
 
     fn scene(text: &str) -> Scene {
         serde_json::from_str(text).unwrap()
@@ -280,7 +281,7 @@ mod tests {
                 r#"{{"geometry": "{geometry}", "domain": {domain}, {bodies}, "points": {{"spacing_m": {points}}},
                 "electrostatics": {{"outer": [{{"potential_v": 0}}]}}}}"#
             ));
-            let least = least(&scene, &Layout::new(&scene)).points;
+            let least = least(&scene, &setup::layout(&scene)).points;
             let there = Cloud::new(&scene).unwrap().len() as f64;
             assert!(
                 least < 1.1 * there && least > 0.25 * there,

@@ -108,7 +108,7 @@ impl Builder {
 
     /// Points that lie on an axis but for rounding lie on it.
     pub(crate) fn on_axis(&self, mut seeds: Vec<Seed>) -> Vec<Seed> {
-        for seed in seeds.iter_mut().filter(|_| self.layout.axisymmetric) {
+        for seed in seeds.iter_mut().filter(|_| self.layout.axisymmetric()) {
             if seed.place[0].abs() < 1e-6 * seed.spacing {
                 seed.place[0] = 0.0;
             }
@@ -123,7 +123,7 @@ impl Builder {
         let own = k as u16 + 1;
         let shared = sides[0] == sides[1] || sides[0] != own;
         let outside = self.layout.depth(seed.place) < 0.3 * seed.spacing
-            || self.layout.axisymmetric && seed.place[0] < 0.0;
+            || self.layout.axisymmetric() && seed.place[0] < 0.0;
         let near = 0.1 * seed.spacing;
         let taken = self.occupied.any(seed.place, near, |_, _, _| true);
         (!shared && !outside && !taken && !self.others_face(seed, k, sides[1])).then_some(sides)

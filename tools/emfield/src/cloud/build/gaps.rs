@@ -129,7 +129,7 @@ impl Builder {
     fn on_the_axis(&self, column: &Column, side: usize, gap: &Gap) -> Option<Strand> {
         let seed = &column.seed;
         let crosses = seed.normal[1].abs() > FACING;
-        if !self.layout.axisymmetric || !crosses || seed.place[0] > BESIDE * seed.spacing {
+        if !self.layout.axisymmetric() || !crosses || seed.place[0] > BESIDE * seed.spacing {
             return None;
         }
         let body = &self.layout.solids[column.solid?].body;
@@ -164,7 +164,7 @@ impl Builder {
                 (up / across).powi(2) + level / (flat * flat) < TOO_CLOSE * TOO_CLOSE
             });
         let beside = place[0] > 0.0 && place[0] < 0.3 * flat;
-        if crowded || self.layout.axisymmetric && beside {
+        if crowded || self.layout.axisymmetric() && beside {
             return;
         }
         self.occupied.push(place);

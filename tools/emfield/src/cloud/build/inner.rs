@@ -7,8 +7,9 @@ use super::Builder;
 use super::layers::{Column, Ground, Layered, Standing, thicknesses};
 use crate::cloud::lattice::{self, Node};
 use crate::cloud::layout::Wall;
+use crate::cloud::points::Arrangement;
 use crate::cloud::{Class, Foot, Metric, jitter};
-use crate::scene::{Arrangement, Scene};
+use crate::scene::Scene;
 
 /// Spacing across over spacing along the surface from which a layer counts as round.
 const ROUND: f64 = 0.85;
@@ -114,7 +115,7 @@ impl Builder {
             kept.par_extend(inside.par_iter().filter_map(|node| {
                 let within = self.layout.depth(node.place) > 0.5 * node.spacing
                     && solid.body.distance(node.place) < 0.0
-                    && !(self.layout.axisymmetric && node.place[0] < 0.3 * node.spacing);
+                    && !(self.layout.axisymmetric() && node.place[0] < 0.3 * node.spacing);
                 let medium = within.then(|| self.room(node, &standing)).flatten()?;
                 (medium == k as u16 + 1).then_some((*node, medium))
             }));
@@ -191,13 +192,13 @@ impl Builder {
                 let up = shapes::frame::dot(shift, normal);
                 moved = along(moved, up * (across / flat - 1.0), normal);
             }
-            let on_axis = self.layout.axisymmetric && x[0] == 0.0;
+            let on_axis = self.layout.axisymmetric() && x[0] == 0.0;
             if on_axis {
                 moved[0] = 0.0;
             }
             let far = |x: Vector| self.layout.nearest(x).0.abs().min(self.layout.depth(x));
             let kept = self.layout.medium(moved) == medium && far(moved) > 0.5 * far(x);
-            if kept && !(self.layout.axisymmetric && moved[0] < 0.5 * x[0]) {
+            if kept && !(self.layout.axisymmetric() && moved[0] < 0.5 * x[0]) {
                 self.cloud.position[i] = moved;
             }
         }

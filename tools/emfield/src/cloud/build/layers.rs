@@ -5,7 +5,7 @@ use shapes::frame::{Vector, along, difference, dot};
 use super::surface::Seed;
 use crate::cloud::layout::Layout;
 use crate::cloud::occupied::Occupied;
-use crate::scene::Layers;
+use crate::cloud::points::Layers;
 
 /// Points nearer than this part of the local spacing, across and along the surface, are too close.
 pub(crate) const TOO_CLOSE: f64 = 0.6;
@@ -172,7 +172,7 @@ impl Ground<'_> {
         if room < limit || self.layout.medium(place) != medium {
             return None;
         }
-        if self.layout.axisymmetric && place[0] < 0.3 * column.seed.spacing {
+        if self.layout.axisymmetric() && place[0] < 0.3 * column.seed.spacing {
             return None;
         }
         let (nearest, _) = self.layout.nearest(place);

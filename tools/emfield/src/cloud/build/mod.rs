@@ -25,9 +25,10 @@ use self::surface::Seed;
 use crate::cloud::lattice::{self, Node};
 use crate::cloud::layout::{Layout, Wall};
 use crate::cloud::occupied::Occupied;
-use crate::cloud::{Class, Cloud, Counts, Metric};
+use crate::cloud::points::Layers;
+use crate::cloud::{Class, Cloud, Counts, Metric, setup};
 use crate::geometry::Geometry;
-use crate::scene::{Layers, Scene};
+use crate::scene::Scene;
 
 /// Least width of a body over its spacing: the points of a smaller one hang together with each other alone.
 const NARROW: f64 = 0.5;
@@ -43,7 +44,7 @@ pub(crate) fn cloud(scene: &Scene, wider: f64) -> Result<Cloud, Vec<Fault>> {
     if !faults.is_empty() {
         return Err(faults);
     }
-    let mut layout = Layout::new(scene).wider(wider);
+    let mut layout = setup::layout(scene).wider(wider);
     check_sizes(scene, &layout)?;
     let plans = plans(scene, &mut layout);
     let mut builder = Builder::new(scene, layout);
@@ -89,7 +90,7 @@ fn check_sizes(scene: &Scene, layout: &Layout) -> Result<(), Vec<Fault>> {
 
 /// Bodies with too few points across for the field in them: what to say of each.
 pub(crate) fn grains(scene: &Scene) -> Vec<String> {
-    let layout = Layout::new(scene);
+    let layout = setup::layout(scene);
     let told = |(solid, body): (&crate::cloud::layout::Solid, &crate::scene::BodyScene)| {
         let widest = width(solid, layout.dimensions).fold(0.0, f64::max);
         (widest < GRAIN).then(|| {
@@ -105,7 +106,7 @@ pub(crate) fn grains(scene: &Scene) -> Vec<String> {
 
 /// The least number of spacings that a body is wide; of the domain where there is none.
 pub(crate) fn narrowest(scene: &Scene) -> f64 {
-    let layout = Layout::new(scene);
+    let layout = setup::layout(scene);
     let widest = |solid| width(solid, layout.dimensions).fold(0.0, f64::max);
     let bodies = layout.solids.iter().map(widest);
     bodies.fold(f64::INFINITY, f64::min).min(layout.across())
@@ -113,7 +114,7 @@ pub(crate) fn narrowest(scene: &Scene) -> f64 {
 
 /// Ellipsoids whose ends bend more sharply than points along them can follow: what to say of each.
 pub(crate) fn bends(scene: &Scene) -> Vec<String> {
-    let layout = Layout::new(scene);
+    let layout = setup::layout(scene);
     let told = |k: usize| {
         let primitive = layout.solids[k].body.single()?;
         let Kind::Ellipsoid(ellipsoid) = primitive.kind else {
@@ -215,7 +216,7 @@ impl Builder {
             }
             Wall::Ball { centre, radius } => {
                 for seed in self.ball(centre, radius, layers.is_some()) {
-                    if self.layout.axisymmetric && seed.place[0] < 0.0 {
+                    if self.layout.axisymmetric() && seed.place[0] < 0.0 {
                         continue;
                     }
                     if let Some(point) = self.outer(seed.place, seed.spacing, 0) {

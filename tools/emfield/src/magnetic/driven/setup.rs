@@ -8,6 +8,7 @@ use shapes::surface::{Piece, enclosed};
 
 use crate::cloud::Cloud;
 use crate::cloud::layout::Layout;
+use crate::cloud::setup::layout;
 use crate::geometry::Geometry;
 use crate::magnetic::driven::winding::{Flow, Winding};
 use crate::magnetic::source::C;
@@ -43,7 +44,7 @@ pub(crate) fn windings(
         scene,
         currents,
         cloud,
-        layout: Layout::new(scene),
+        layout: layout(scene),
     };
     let (mut found, mut faults) = (Vec::new(), Vec::new());
     for (number, coil) in currents.coils.iter().enumerate() {

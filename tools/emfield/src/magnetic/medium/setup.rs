@@ -2,7 +2,7 @@
 
 use run::Fault;
 
-use crate::cloud::layout::Layout;
+use crate::cloud;
 use crate::geometry::Geometry;
 use crate::magnetic::setup::source;
 use crate::magnetic::source::Source;
@@ -33,7 +33,7 @@ pub(crate) fn magnets(scene: &Scene, currents: &EddyCurrents) -> Result<(), Vec<
             faults.push(Fault::at(&at, what));
         }
     }
-    let layout = Layout::new(scene);
+    let layout = cloud::setup::layout(scene);
     for (k, coil) in currents.coils.iter().enumerate() {
         let one = EddyCurrents {
             coils: vec![coil.clone()],
