@@ -4,7 +4,7 @@ use artefact::Version;
 use run::{Estimate, Failure, Inputs, Plan, Preview, Session, Tool};
 
 use crate::assemble;
-use crate::cloud::Cloud;
+use crate::cloud::{self, Cloud};
 use crate::magnetic::unknown::Unknown;
 use crate::scene::{EddyCurrents, Geometry, Scene};
 use crate::surface::enclosing::Enclosing;
@@ -68,7 +68,7 @@ impl Tool for EmField {
         if scene.liquid.is_some() || !scene.faults().is_empty() {
             return plan;
         }
-        let [points, bytes] = Cloud::least(scene);
+        let [points, bytes] = cloud::setup::least(scene);
         plan.count("points, at least", points as u64)
             .memory("points and weights, at least", bytes as u64)
     }

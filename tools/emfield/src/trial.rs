@@ -10,7 +10,7 @@ use artefact::{Header, Version};
 use run::{Estimate, Failure, Taken, duration, trial};
 
 use crate::assemble;
-use crate::cloud::Cloud;
+use crate::cloud::{Cloud, setup};
 use crate::march::steps::Steps;
 use crate::scene::method::Way;
 use crate::scene::{Geometry, Scene};
@@ -57,7 +57,7 @@ impl Planned {
     /// Where bodies and spacings do not suit each other.
     pub(crate) fn new(scene: &Scene) -> Result<Self, Failure> {
         let began = Instant::now();
-        let cloud = Cloud::new(scene)?;
+        let cloud = setup::cloud(scene)?;
         let seconds = began.elapsed().as_secs_f64();
         Ok(Self { cloud, seconds })
     }
@@ -99,7 +99,7 @@ pub(crate) fn estimate(scene: &Scene, planned: &Planned) -> Result<Estimate, Fai
 fn fewer(scene: &Scene, points: usize) -> Option<(Scene, Cloud)> {
     let many = |points: usize| points as f64 > MANY * FEW;
     let dimensions = scene.geometry.dimensions() as f64;
-    let (mut least, mut most, mut now) = (1.0, Cloud::narrowest(scene) / WIDTH, points);
+    let (mut least, mut most, mut now) = (1.0, setup::layout(scene).narrowest() / WIDTH, points);
     let mut found = None;
     for _ in 0..TRIES {
         if !many(now) {
@@ -111,7 +111,7 @@ fn fewer(scene: &Scene, points: usize) -> Option<(Scene, Cloud)> {
             break;
         }
         let coarse = coarser(scene, by);
-        match Cloud::new(&coarse) {
+        match setup::cloud(&coarse) {
             Ok(cloud) => {
                 (least, now) = (by, cloud.len());
                 found = Some((coarse, cloud));

@@ -8,7 +8,7 @@
 use run::{Failure, Session};
 
 use super::steady;
-use crate::cloud::{Cloud, SurfacePoint};
+use crate::cloud::{Cloud, SurfacePoint, setup};
 use crate::frames::{Column, Found};
 use crate::scene::Scene;
 
@@ -24,7 +24,7 @@ const MATTERS: f64 = 0.02;
 
 /// Whether spacings of a scene rise so fast that its far field is judged.
 pub(crate) fn judged(scene: &Scene) -> bool {
-    Cloud::steepest(scene) > SLOW
+    setup::layout(scene).steepest() > SLOW
 }
 
 /// Tells how far off the fields at the bodies of a scene are for points far from them.
@@ -84,7 +84,7 @@ fn sparse(scene: &Scene) -> Result<(Scene, Cloud), Failure> {
     let mut sparse = scene.clone();
     sparse.output.enclosures.clear();
     sparse.points.extra_m.clear();
-    let cloud = Cloud::wider(&sparse, WIDER)?;
+    let cloud = setup::wider(&sparse, WIDER)?;
     Ok((sparse, cloud))
 }
 

@@ -7,6 +7,7 @@ mod preview;
 use run::{Failure, Session};
 
 use crate::cloud::Cloud;
+use crate::cloud::setup::layout;
 use crate::frames::{self, Doubt, Found, Samples};
 use crate::magnetic::parameters::Parameters;
 use crate::magnetic::problem::Problem;
@@ -35,10 +36,11 @@ fn fields<const D: usize, const K: usize>(
 ) -> Result<(), Failure> {
     // Until a march has begun nothing is worth a checkpoint.
     let expendable = session.expendable();
-    for what in Cloud::grains(scene) {
+    let layout = layout(scene);
+    for what in layout.grains() {
         session.warn(what);
     }
-    for what in Cloud::bends(scene) {
+    for what in layout.bends() {
         session.note(what);
     }
     let samples = session.timed("probes", || Samples::new::<D>(scene, cloud))?;

@@ -7,7 +7,7 @@ use run::preview::{Coordinates, Marked, Preview, Spot};
 use shapes::frame::{Frame, Vector};
 
 use super::liquid::filled;
-use crate::cloud::{Class, Cloud};
+use crate::cloud::{self, Class};
 use crate::geometry::Geometry;
 use crate::liquid::vector::spatial;
 use crate::scene::currents::Loop;
@@ -28,7 +28,7 @@ pub(crate) fn preview(scene: &Scene) -> Result<Preview, Failure> {
     if let Some(part) = &scene.liquid {
         return liquid(scene, part);
     }
-    let cloud = Cloud::new(scene)?;
+    let cloud = cloud::setup::cloud(scene)?;
     let mut preview = Preview::new(match scene.geometry {
         Geometry::Plane => Coordinates::Plane,
         Geometry::Axisymmetric => Coordinates::Axisymmetric,

@@ -80,6 +80,13 @@ impl Solid {
             growth: [0.0; 2],
         }
     }
+
+    /// Its extents over its spacing.
+    pub(super) fn widths(&self, dimensions: usize) -> impl Iterator<Item = f64> + Clone {
+        let [low, high] = self.body.bounds();
+        let spacing = self.spacing;
+        (0..dimensions).map(move |a| (high[a] - low[a]) / spacing)
+    }
 }
 
 /// A region with finer points.

@@ -3,10 +3,12 @@
 //! A cloud is all that the equations know of geometry: where points are, how far apart, to which medium they belong or
 //! which media they part, how much of a conductor each stands for. See [`Cloud`].
 //!
-//! - [`layout`]: which medium is where and how fine points should be, by its [`points`]; [`setup`] makes it; `build`: from a scene to its points, step by step;
+//! - [`layout`]: which medium is where; [`points`]: which points are wanted; [`setup`]: both from a scene;
+//! - `build`: from these to points, step by step; `doubts`: bodies that they do not resolve;
 //! - `lattice`: nested lattices; `occupied`: points already placed; `jitter`: random shifts.
 
 mod build;
+mod doubts;
 pub(crate) mod jitter;
 pub(crate) mod lattice;
 pub mod layout;
@@ -18,14 +20,15 @@ pub use build::surface::Curvature;
 pub(crate) use build::surface::seeds;
 
 use crate::geometry::Geometry;
-use crate::scene::Scene;
+use layout::Layout;
+use points::Points;
 use run::Fault;
 use shapes::frame::{Vector, difference, dot};
 
 /// Where a point stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Class {
-    /// Inside a medium: 0 the surroundings, `k + 1` body `k` of the scene.
+    /// Inside a medium: 0 the surroundings, `k + 1` body `k`.
     Inside(u16),
     /// On the surface of a body.
     Interface {
@@ -38,7 +41,7 @@ pub enum Class {
     Outer {
         /// The medium there.
         medium: u16,
-        /// Number of the wall, in [`crate::scene::Domain::walls`].
+        /// Number of the wall, in [`Cloud::faces`].
         face: u8,
     },
 }
@@ -137,7 +140,7 @@ pub struct Counts {
 /// [`Geometry::flat`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cloud {
-    /// Geometry of the scene.
+    /// Geometry.
     pub geometry: Geometry,
     /// Names of media, the surroundings first.
     pub media: Vec<String>,
@@ -147,7 +150,7 @@ pub struct Cloud {
     pub faces: Vec<&'static str>,
     /// The spacing where nothing asks for another \[m\].
     pub pitch: f64,
-    /// How many points the scene names one by one: the last ones.
+    /// How many points are given one by one: the last ones.
     pub further: usize,
     /// Places \[m\].
     pub position: Vec<Vector>,
@@ -162,57 +165,36 @@ pub struct Cloud {
     /// One entry for each interface point, in their order.
     pub surface: Vec<SurfacePoint>,
     /// What each point in or on a conductor stands for; a point on an interface stands for its inner medium. Empty
-    /// where a scene has no eddy currents.
+    /// where none does.
     pub cells: Vec<Cell>,
     /// Points by kind.
     pub counts: Counts,
 }
 
+/// What fills a layout.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Filling<'a> {
+    /// The points.
+    pub points: &'a Points,
+    /// Whether points stand for parts of each medium, see [`Cloud::cells`]; empty where they do so of none.
+    pub shares: Vec<bool>,
+    /// Radius of supports over the spacing, by which the memory of stencils is told.
+    pub support: f64,
+}
+
 impl Cloud {
-    /// The points of a scene.
+    /// The points of a layout.
     ///
     /// # Errors
-    /// Faults of the scene: too many points, a body without points.
-    pub fn new(scene: &Scene) -> Result<Self, Vec<Fault>> {
-        build::cloud(scene, 1.0)
+    /// Too many points, a body without points.
+    pub fn new(layout: Layout, filling: &Filling<'_>) -> Result<Self, Vec<Fault>> {
+        build::cloud(layout, filling)
     }
 
-    /// The points of a scene with those far from bodies so many times as far apart: on surfaces and in layers they are the same.
-    ///
-    /// # Errors
-    /// As [`Cloud::new`].
-    pub fn wider(scene: &Scene, by: f64) -> Result<Self, Vec<Fault>> {
-        build::cloud(scene, by)
-    }
-
-    /// The fastest rise of the spacing of lattices per distance outward.
+    /// How many points a layout has at least, and the memory of these and of their stencils \[byte\].
     #[must_use]
-    pub fn steepest(scene: &Scene) -> f64 {
-        setup::layout(scene).steepest()
-    }
-
-    /// Bodies of a scene that have too few points across: what to say of each.
-    #[must_use]
-    pub fn grains(scene: &Scene) -> Vec<String> {
-        build::grains(scene)
-    }
-
-    /// The least number of spacings that a body, or the domain, is wide.
-    #[must_use]
-    pub fn narrowest(scene: &Scene) -> f64 {
-        build::narrowest(scene)
-    }
-
-    /// Ellipsoids whose ends bend more sharply than points along them can follow: what to say of each.
-    #[must_use]
-    pub fn bends(scene: &Scene) -> Vec<String> {
-        build::bends(scene)
-    }
-
-    /// How many points a scene without faults has at least, and the memory of these and of their stencils \[byte\].
-    #[must_use]
-    pub fn least(scene: &Scene) -> [f64; 2] {
-        let least = build::count::least(scene, &setup::layout(scene));
+    pub fn least(layout: &Layout, filling: &Filling<'_>) -> [f64; 2] {
+        let least = build::count::least(layout, filling);
         [least.points, least.bytes]
     }
 

@@ -1,7 +1,10 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
+use super::layout::{Solid, Wall};
 use super::*;
+use crate::scene::Scene;
+use shapes::Body;
 use shapes::frame::{difference, dot, length};
 
 fn scene(text: &str) -> Scene {
@@ -16,6 +19,35 @@ fn ball(points: &str, more: &str) -> Scene {
         "conductivity_s_m": 1e7}}], "points": {points}, "eddy_currents": {{"harmonic": {{"frequency_hz": 1e5}},
         "applied_flux_density_t": [0, 0, 1]}} {more}}}"#
     ))
+}
+
+#[test]
+fn a_cloud_needs_no_scene() {
+    let text = r#"{"spacing_m": 0.2, "layers": {"first_m": 0.05}, "wall_layers": {}}"#;
+    let points: Points = serde_json::from_str(text).unwrap();
+    let disc = r#"{"disc": {"centre_m": [0.5, 0], "radius_m": 1}}"#;
+    let body = Body::new(&serde_json::from_str(disc).unwrap(), 2);
+    let solids = vec![Solid::new("drop".to_owned(), body, points.spacing_m)];
+    let (centre, radius) = ([0.0; 3], 4.0);
+    let layout = Layout::new(
+        Geometry::Plane,
+        Wall::Ball { centre, radius },
+        solids,
+        &points,
+    );
+    let filling = Filling {
+        points: &points,
+        shares: vec![false, true],
+        support: 2.5,
+    };
+    let given = scene(&format!(
+        r#"{{"geometry": "plane", "domain": {{"sphere": {{"centre_m": [0, 0], "radius_m": 4}}}}, "points": {text},
+        "bodies": [{{"name": "drop", "shape": {disc}, "conductivity_s_m": 1e7}}],
+        "eddy_currents": {{"harmonic": {{"frequency_hz": 1e5}}, "applied_flux_density_t": [0, 0, 1]}}}}"#
+    ));
+    let cloud = Cloud::new(layout, &filling).unwrap();
+    assert!(cloud.len() > 500 && !cloud.cells.is_empty());
+    assert_eq!(cloud, setup::cloud(&given).unwrap());
 }
 
 /// Least distance to another point over the smaller spacing of the two, in the metric of the point; and the greatest
@@ -62,7 +94,7 @@ fn nearness(cloud: &Cloud) -> (f64, f64) {
 fn a_ball_in_a_cube() {
     let scene = ball(r#"{"spacing_m": 0.1, "layers": {"first_m": 0.02}}"#, "");
     let start = Instant::now();
-    let cloud = Cloud::new(&scene).unwrap();
+    let cloud = setup::cloud(&scene).unwrap();
     println!(
         "{} points {:?} in {:?}",
         cloud.len(),
@@ -100,7 +132,7 @@ fn a_ball_in_a_cube() {
 #[test]
 fn spacing_grows_outward_to_walls_that_are_met_exactly() {
     let scene = ball(r#"{"spacing_m": 0.2}"#, "");
-    let cloud = Cloud::new(&scene).unwrap();
+    let cloud = setup::cloud(&scene).unwrap();
     let counts = cloud.counts;
     assert_eq!(
         counts.interface + counts.outer + counts.layers + counts.lattice,
@@ -124,18 +156,18 @@ fn spacing_grows_outward_to_walls_that_are_met_exactly() {
 
 #[test]
 fn doubling_lattices_need_more_points_than_smooth_ones() {
-    let smooth = Cloud::new(&ball(r#"{"spacing_m": 0.2}"#, "")).unwrap();
-    let doubling = Cloud::new(&ball(r#"{"spacing_m": 0.2, "steps": "doubling"}"#, "")).unwrap();
+    let smooth = setup::cloud(&ball(r#"{"spacing_m": 0.2}"#, "")).unwrap();
+    let doubling = setup::cloud(&ball(r#"{"spacing_m": 0.2, "steps": "doubling"}"#, "")).unwrap();
     assert!(doubling.len() > smooth.len());
     assert!(nearness(&doubling).1 <= 2.0 + 1e-9);
 }
 
 #[test]
 fn shifted_points_leave_surfaces_and_walls_alone() {
-    let plain = Cloud::new(&ball(r#"{"spacing_m": 0.2}"#, "")).unwrap();
+    let plain = setup::cloud(&ball(r#"{"spacing_m": 0.2}"#, "")).unwrap();
     let points = r#"{"spacing_m": 0.2, "jitter": 0.2, "seed": 7}"#;
-    let shaken = Cloud::new(&ball(points, "")).unwrap();
-    assert_eq!(shaken, Cloud::new(&ball(points, "")).unwrap());
+    let shaken = setup::cloud(&ball(points, "")).unwrap();
+    assert_eq!(shaken, setup::cloud(&ball(points, "")).unwrap());
     let mut moved = 0;
     for i in 0..plain.len() {
         let way = length(difference(plain.position[i], shaken.position[i]));
@@ -152,7 +184,7 @@ fn shifted_points_leave_surfaces_and_walls_alone() {
 #[test]
 fn closest_packing_fills_a_ball() {
     let points = r#"{"spacing_m": 0.1, "arrangement": "hexagonal"}"#;
-    let cloud = Cloud::new(&ball(points, "")).unwrap();
+    let cloud = setup::cloud(&ball(points, "")).unwrap();
     let (least, grading) = nearness(&cloud);
     assert!(least > 0.6 && grading <= 2.0, "{least} {grading}");
     let volume: f64 = cloud.cells.iter().map(|c| c.volume).sum();
@@ -166,7 +198,7 @@ fn a_disc_that_is_the_domain() {
         "surroundings": {"conductivity_s_m": 7.7e6}, "eddy_currents": {"harmonic": {"frequency_hz": 60},
         "applied_flux_density_t": [0, 0, 1e-6]}, "points": {"spacing_m": 5e-3, "wall_layers": {"first_m": 2e-3}}}"#,
     );
-    let cloud = Cloud::new(&scene).unwrap();
+    let cloud = setup::cloud(&scene).unwrap();
     let volume: f64 = cloud.cells.iter().map(|c| c.volume).sum();
     assert!((volume / (0.01 * std::f64::consts::PI) - 1.0).abs() < 1e-3);
     for i in 0..cloud.len() {
@@ -188,7 +220,7 @@ fn a_ball_and_a_ring_about_an_axis() {
         "eddy_currents": {"harmonic": {"frequency_hz": 1e5}, "applied_flux_density_t": [0, 1]},
         "points": {"spacing_m": 0.08, "layers": {"first_m": 0.04}}}"#,
     );
-    let cloud = Cloud::new(&scene).unwrap();
+    let cloud = setup::cloud(&scene).unwrap();
     let pi = std::f64::consts::PI;
     for (medium, exact) in [(1, 4.0 / 3.0 * pi), (2, 5.0 * pi)] {
         let own = |i: &usize| match cloud.class[*i] {
@@ -232,7 +264,7 @@ fn bodies_that_touch_share_one_surface() {
         {"name": "b", "shape": {"box": {"min_m": [0, -1], "max_m": [1, 1]}}}],
         "electrostatics": {"applied_field_v_m": [1, 0]}, "points": {"spacing_m": 0.1}}"#,
     );
-    let cloud = Cloud::new(&scene).unwrap();
+    let cloud = setup::cloud(&scene).unwrap();
     let shared: f64 = cloud
         .surface
         .iter()
@@ -250,7 +282,7 @@ fn a_conductor_may_cross_the_wall() {
         {"name": "bar", "shape": {"cylinder": {"centre_m": [0, 0, 0], "radius_m": 0.5, "length_m": 6}}}],
         "electrostatics": {"applied_field_v_m": [1, 0, 0]}, "points": {"spacing_m": 0.15}}"#,
     );
-    let cloud = Cloud::new(&scene).unwrap();
+    let cloud = setup::cloud(&scene).unwrap();
     let inside = |c: &Class| matches!(c, Class::Outer { medium: 1, .. });
     assert!(cloud.class.iter().any(inside));
     assert!(cloud.position.iter().all(|x| x[2].abs() <= 2.0));
@@ -264,7 +296,7 @@ fn pair(first: &str, other: &str, second: f64) -> Cloud {
         {{"name": "b", "shape": {other}, "relative_permittivity": 80, "spacing_m": {second}}}],
         "points": {{"spacing_m": 0.25}}, "electrostatics": {{"applied_field_v_m": [0, 0, 1]}}}}"#
     ));
-    Cloud::new(&scene).unwrap()
+    setup::cloud(&scene).unwrap()
 }
 
 /// Areas of the surface between two media, and the finest spacing there.

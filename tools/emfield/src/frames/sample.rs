@@ -227,7 +227,7 @@ mod tests {
     #[test]
     fn harmonic_polynomials_follow_a_potential_between_the_points() {
         let scene: Scene = serde_json::from_str(SPHERE).unwrap();
-        let cloud = Cloud::new(&scene).unwrap();
+        let cloud = cloud::setup::cloud(&scene).unwrap();
         let values: Vec<f64> = cloud.position.iter().map(|x| potential(*x)).collect();
         let column = Column::new("potential", "V", values);
         let samples = Samples::new::<3>(&scene, &cloud).unwrap();

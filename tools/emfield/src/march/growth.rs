@@ -80,7 +80,7 @@ mod tests {
     fn cloud() -> Cloud {
         let scene = r#"{"geometry": "plane", "domain": {"box": {"min_m": [0, 0], "max_m": [1, 1]}},
             "points": {"spacing_m": 0.5}, "electrostatics": {"outer": [{"potential_v": 0}]}}"#;
-        Cloud::new(&serde_json::from_str(scene).unwrap()).unwrap()
+        crate::cloud::setup::cloud(&serde_json::from_str(scene).unwrap()).unwrap()
     }
 
     /// The step at which heats, the roots of which are given, are found to grow.

@@ -157,7 +157,7 @@ mod tests {
                 "points": {{"spacing_m": 1, "layers": {{"first_m": 0.3}}, "jitter": {jitter}, "seed": 1}}}}"#
             );
             let scene: Scene = serde_json::from_str(&scene).unwrap();
-            let cloud = Cloud::new(&scene).unwrap();
+            let cloud = cloud::setup::cloud(&scene).unwrap();
             let region: Region<3> = region(&scene, &cloud, &|_| false);
             let form = Form {
                 order,

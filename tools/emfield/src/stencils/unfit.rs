@@ -85,7 +85,7 @@ mod tests {
     /// What a scene with these bodies and points is told, of `D` coordinates.
     fn told<const D: usize>(scene: &Value) -> String {
         let scene: Scene = serde_json::from_value(scene.clone()).unwrap();
-        let cloud = Cloud::new(&scene).unwrap();
+        let cloud = crate::cloud::setup::cloud(&scene).unwrap();
         let region = region::<D>(&scene, &cloud, &|_| false);
         let form = numerics(&scene).form;
         let error = Sides::new(&region, &form).unwrap_err();
@@ -161,7 +161,7 @@ mod tests {
         assert!(said.contains("put it on the axis"), "{said}");
         let scene: Scene =
             serde_json::from_value(scene("axisymmetric", disc, json!([[0, 0.71]]))).unwrap();
-        let cloud = Cloud::new(&scene).unwrap();
+        let cloud = crate::cloud::setup::cloud(&scene).unwrap();
         let region = region::<2>(&scene, &cloud, &|_| false);
         let form = numerics(&scene).form;
         assert!(Sides::new(&region, &form).is_ok());

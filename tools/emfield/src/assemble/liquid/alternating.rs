@@ -2,7 +2,7 @@
 
 use run::Failure;
 
-use crate::cloud::Cloud;
+use crate::cloud;
 use crate::liquid::air::Place;
 use crate::liquid::magnetic::{Applied, Ball, Magnetic, outline};
 use crate::liquid::step::{Liquid, Matter};
@@ -29,7 +29,7 @@ pub(crate) fn alternating(
     let (volume, middle) = about.volume();
     let radius = (0.75 * volume / std::f64::consts::PI).cbrt();
     let own = given.about(scene, middle, radius);
-    let cloud = Cloud::new(&own)?;
+    let cloud = cloud::setup::cloud(&own)?;
     let region: Region<3> = region(&own, &cloud, &|_| false);
     let form: Form = numerics(&own).form;
     let cells: Vec<Moments<3>> = cloud.cells.iter().map(Moments::of).collect();

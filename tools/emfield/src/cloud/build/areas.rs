@@ -124,7 +124,7 @@ fn solved(a: Square, b: &Terms) -> Option<Terms> {
 mod tests {
     use std::f64::consts::PI;
 
-    use crate::cloud::Cloud;
+    use crate::cloud::setup;
     use crate::scene::Scene;
 
     /// `int dA / (a + c)^2` over a ball of radius 1 with `c = 1 - cos` of the angle from the pole that faces another ball.
@@ -136,7 +136,7 @@ mod tests {
               {"name": "b", "potential_v": 1, "shape": {"sphere": {"centre_m": [0, 0, 1.005], "radius_m": 1}}}],
             "electrostatics": {"outer": [{"potential_v": 0}]}, "points": {"spacing_m": 0.2}}"#;
         let scene: Scene = serde_json::from_str(scene).unwrap();
-        let cloud = Cloud::new(&scene).unwrap();
+        let cloud = setup::cloud(&scene).unwrap();
         let (a, mut sum, mut area) = (0.005, 0.0, 0.0);
         for s in cloud.surface.iter().filter(|s| s.inner == 1) {
             sum += s.area / (a + 1.0 - s.normal[2]).powi(2);

@@ -13,24 +13,18 @@ use super::layers::{Column, Standing};
 use crate::cloud::layout::{Layout, Wall};
 use crate::cloud::occupied::Occupied;
 use crate::cloud::{Cell, Class, Cloud};
-use crate::scene::Scene;
 
 /// Samples per spacing along an axis, in two and three dimensions.
 const SAMPLES: [f64; 2] = [8.0, 4.0];
 
-/// Fills the cells of conductors, magnets and coils of a scene with eddy currents.
-pub(crate) fn fill(scene: &Scene, layout: &Layout, columns: &[Column], cloud: &mut Cloud) {
-    if scene.eddy_currents.is_none() {
+/// Fills the cells of the media that points have shares of.
+pub(crate) fn fill(shares: &[bool], layout: &Layout, columns: &[Column], cloud: &mut Cloud) {
+    if shares.is_empty() {
         return;
     }
     let mut cells = vec![Cell::default(); cloud.len()];
-    for medium in 0..cloud.media.len() {
-        if scene.medium(medium).conductivity_s_m > 0.0
-            || scene.magnetic(medium)
-            || scene.carries(medium)
-        {
-            Conductor::new(layout, columns, medium as u16).share_out(cloud, &mut cells);
-        }
+    for medium in (0..shares.len()).filter(|m| shares[*m]) {
+        Conductor::new(layout, columns, medium as u16).share_out(cloud, &mut cells);
     }
     cloud.cells = cells;
 }

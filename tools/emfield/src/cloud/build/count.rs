@@ -1,4 +1,4 @@
-//! How many points a scene has at least, and what memory they take, before any is made.
+//! How many points a layout has at least, and what memory they take, before any is made.
 //!
 //! A lattice of spacing `h` has a point in each `h^d`. The domain is halved, part by part, where the wanted spacing changes
 //! most; each part then has at least the points of the largest spacing that is wanted anywhere in it. Surfaces are counted by
@@ -12,9 +12,9 @@ use run::Fault;
 use shapes::frame::{Vector, length};
 use shapes::surface::{Piece, pieces};
 
+use crate::cloud::Filling;
 use crate::cloud::layout::{Layout, Wall};
 use crate::cloud::points::Arrangement;
-use crate::scene::Scene;
 
 /// Most points of a cloud: their numbers have 32 bits.
 const MOST: f64 = 4e9;
@@ -33,8 +33,6 @@ const UNEVEN: [f64; 2] = [512.0, 9.0];
 const NEAR: f64 = 8.0;
 /// Bytes of a point itself.
 const POINT: f64 = 112.0;
-/// Radius of a support of order up to 2, and of a higher one, over the spacing.
-const SUPPORT: [f64; 2] = [2.5, 2.75];
 
 /// What there is at least.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,7 +74,7 @@ impl Ord for Part {
 }
 
 /// Refuses what cannot be counted, or takes more memory than there is.
-pub(crate) fn check(scene: &Scene, layout: &Layout) -> Result<(), Vec<Fault>> {
+pub(crate) fn check(layout: &Layout, filling: &Filling<'_>) -> Result<(), Vec<Fault>> {
     if layout.across() > ACROSS {
         let what = format!(
             "the domain is {:.1e} spacings of {} m wide; at most {ACROSS:.0e}, beyond which places are not told apart",
@@ -97,7 +95,7 @@ pub(crate) fn check(scene: &Scene, layout: &Layout) -> Result<(), Vec<Fault>> {
             return Err(vec![Fault::at(&format!("/bodies/{k}/shape"), what)]);
         }
     }
-    let least = least(scene, layout);
+    let least = least(layout, filling);
     let what = format!(
         "spacing {} m in this domain gives at least {:.1e} points",
         layout.spacing, least.points
@@ -113,10 +111,10 @@ pub(crate) fn check(scene: &Scene, layout: &Layout) -> Result<(), Vec<Fault>> {
     fault.map_or(Ok(()), |fault| Err(vec![fault]))
 }
 
-/// What a scene has at least.
-pub(crate) fn least(scene: &Scene, layout: &Layout) -> Least {
+/// What a layout has at least.
+pub(crate) fn least(layout: &Layout, filling: &Filling<'_>) -> Least {
     let dimensions = layout.dimensions;
-    let layers = &scene.points.layers;
+    let layers = &filling.points.layers;
     let (mut points, mut choice) = (lattice(layout), 0.0);
     for (k, solid) in layout.solids.iter().enumerate() {
         let [low, high] = solid.body.bounds();
@@ -147,15 +145,12 @@ pub(crate) fn least(scene: &Scene, layout: &Layout) -> Least {
         }
         .map(|pair| pair[dimensions - 2]);
         choice += PIECE * per * whole / step.powi(dimensions as i32 - 1);
-        if scene.points.arrangement == Arrangement::Hexagonal {
+        if filling.points.arrangement == Arrangement::Hexagonal {
             let cells = widths.map(|w| (w / solid.spacing).max(1.0));
             choice += POINT * cells.product::<f64>();
         }
     }
-    let radius = scene
-        .method
-        .support
-        .unwrap_or(SUPPORT[usize::from(scene.method.order > 2)]);
+    let radius = filling.support;
     let ball = if dimensions == 3 {
         4.0 / 3.0 * PI * radius
     } else {
@@ -238,8 +233,8 @@ fn part(layout: &Layout, middle: Vector, half: Vector) -> Part {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::cloud::{Cloud, setup};
+    use crate::cloud::setup;
+    use crate::scene::Scene;
 
     fn scene(text: &str) -> Scene {
         serde_json::from_str(text).unwrap()
@@ -281,8 +276,8 @@ mod tests {
                 r#"{{"geometry": "{geometry}", "domain": {domain}, {bodies}, "points": {{"spacing_m": {points}}},
                 "electrostatics": {{"outer": [{{"potential_v": 0}}]}}}}"#
             ));
-            let least = least(&scene, &setup::layout(&scene)).points;
-            let there = Cloud::new(&scene).unwrap().len() as f64;
+            let [least, _] = setup::least(&scene);
+            let there = setup::cloud(&scene).unwrap().len() as f64;
             assert!(
                 least < 1.1 * there && least > 0.25 * there,
                 "{geometry} {domain}: {least} of {there}"
@@ -303,7 +298,7 @@ mod tests {
                 r#"{{"geometry": "space", "domain": {{"box": {{"min_m": [-5e-4, -5e-4, -5e-4], "max_m": [5e-4, {high}, 5e-4]}}}},
                 "points": {{"spacing_m": 5e-6}}, "electrostatics": {{"outer": [{{"potential_v": 0}}]}}}}"#
             ));
-            let faults = Cloud::new(&scene).unwrap_err();
+            let faults = setup::cloud(&scene).unwrap_err();
             assert!(faults[0].to_string().starts_with(at), "{faults:?}");
         }
         for (radius, spacing) in [("1e-3", "1e-9"), ("1e6", "1e-5"), ("1e100", "1e-3")] {
@@ -312,7 +307,7 @@ mod tests {
                 "bodies": [{{"name": "a", "potential_v": 1, "shape": {{"sphere": {{"centre_m": [0, 0, 0], "radius_m": {radius}}}}}}}],
                 "points": {{"spacing_m": {spacing}, "inward": 1}}, "electrostatics": {{"outer": [{{"potential_v": 0}}]}}}}"#
             ));
-            assert!(!Cloud::new(&scene).unwrap_err().is_empty());
+            assert!(!setup::cloud(&scene).unwrap_err().is_empty());
         }
         assert!(began.elapsed().as_secs_f64() < 5.0);
     }

@@ -181,7 +181,7 @@ impl Builder {
 
 #[cfg(test)]
 mod tests {
-    use crate::cloud::{Class, Cloud};
+    use crate::cloud::{Class, Cloud, setup};
     use crate::scene::Scene;
 
     fn two_balls(apart: f64, points: &str) -> Cloud {
@@ -194,7 +194,7 @@ mod tests {
             "electrostatics": {{"outer": [{{"potential_v": 0}}]}}, "points": {points}}}"#
         );
         let scene: Scene = serde_json::from_str(&scene).unwrap();
-        Cloud::new(&scene).unwrap()
+        setup::cloud(&scene).unwrap()
     }
 
     /// Heights in the gap over its width there, of points between the balls and near their axis.

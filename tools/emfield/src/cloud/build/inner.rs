@@ -7,9 +7,8 @@ use super::Builder;
 use super::layers::{Column, Ground, Layered, Standing, thicknesses};
 use crate::cloud::lattice::{self, Node};
 use crate::cloud::layout::Wall;
-use crate::cloud::points::Arrangement;
+use crate::cloud::points::{Arrangement, Layers, Points};
 use crate::cloud::{Class, Foot, Metric, jitter};
-use crate::scene::Scene;
 
 /// Spacing across over spacing along the surface from which a layer counts as round.
 const ROUND: f64 = 0.85;
@@ -23,9 +22,9 @@ impl Builder {
     /// Layers along all surfaces.
     pub(crate) fn layers(
         &mut self,
-        scene: &Scene,
         columns: &mut [Column],
         plans: &[[Vec<f64>; 2]],
+        walls: Option<&Layers>,
     ) {
         let before = self.cloud.len();
         for (number, column) in columns.iter_mut().enumerate() {
@@ -42,7 +41,6 @@ impl Builder {
                 Some(k) => (self.layout.solids[k].spacing, plans[k].clone()),
                 None => {
                     let spacing = group[0].seed.spacing;
-                    let walls = scene.points.wall_layers.as_ref();
                     let inside = walls.map(|l| thicknesses(l, spacing, l.inside));
                     (spacing, [inside.unwrap_or_default(), Vec::new()])
                 }
@@ -167,8 +165,8 @@ impl Builder {
     }
 
     /// Shifts points that lie neither on interfaces nor on walls at random.
-    pub(crate) fn shake(&mut self, scene: &Scene) {
-        let jitter = scene.points.jitter;
+    pub(crate) fn shake(&mut self, points: &Points) {
+        let jitter = points.jitter;
         if jitter == 0.0 {
             return;
         }
@@ -176,7 +174,7 @@ impl Builder {
             let (Class::Inside(medium), x) = (self.cloud.class[i], self.cloud.position[i]) else {
                 continue;
             };
-            let draw = |k: u64| jitter * jitter::signed(scene.points.seed, i as u64, k);
+            let draw = |k: u64| jitter * jitter::signed(points.seed, i as u64, k);
             let mut moved = x;
             for (k, c) in moved.iter_mut().enumerate().take(self.layout.dimensions) {
                 *c += self.cloud.spacing[i] * draw(k as u64);

@@ -1,4 +1,4 @@
-//! From a scene to its points, step by step.
+//! From a layout to its points, step by step.
 //!
 //! 1. `count`: whether there is room for them;
 //! 2. `surface`: a [`seed`] for each point of a surface, of the `areas` that they stand for; `faces`: where bodies touch;
@@ -16,57 +16,48 @@ pub(crate) mod seed;
 pub(crate) mod surface;
 
 use run::Fault;
+use shapes::Body;
 use shapes::frame::{Vector, along, difference, direction};
 use shapes::shape::{Disc, Shape, Sphere};
-use shapes::{Body, Kind};
 
 use self::layers::{Column, thicknesses};
 use self::surface::Seed;
 use crate::cloud::lattice::{self, Node};
-use crate::cloud::layout::{Layout, Wall};
+use crate::cloud::layout::{Layout, SURROUNDINGS, Solid, Wall};
 use crate::cloud::occupied::Occupied;
-use crate::cloud::points::Layers;
-use crate::cloud::{Class, Cloud, Counts, Metric, setup};
+use crate::cloud::points::{Layers, Points};
+use crate::cloud::{Class, Cloud, Counts, Filling, Metric};
 use crate::geometry::Geometry;
-use crate::scene::Scene;
 
 /// Least width of a body over its spacing: the points of a smaller one hang together with each other alone.
 const NARROW: f64 = 0.5;
-/// Width of a body over its spacing below which fields in it are told to be unresolved: with 3 they err by half.
-const GRAIN: f64 = 4.0;
-/// Radius of a bend over the spacing below which fields at it are told to be unresolved: a conducting needle's errs by 6 % with
-/// 3, by 18 % with 2.
-const BEND: f64 = 3.0;
 
-/// The points of a scene, those of lattices far from bodies so many times as far apart as it says; see [`Cloud::new`].
-pub(crate) fn cloud(scene: &Scene, wider: f64) -> Result<Cloud, Vec<Fault>> {
-    let faults = scene.faults();
-    if !faults.is_empty() {
-        return Err(faults);
-    }
-    let mut layout = setup::layout(scene).wider(wider);
-    check_sizes(scene, &layout)?;
-    let plans = plans(scene, &mut layout);
-    let mut builder = Builder::new(scene, layout);
+/// The points of a layout; see [`Cloud::new`].
+pub(crate) fn cloud(mut layout: Layout, filling: &Filling<'_>) -> Result<Cloud, Vec<Fault>> {
+    check_sizes(&layout, filling)?;
+    let points = filling.points;
+    let plans = plans(&points.layers, &mut layout);
+    let mut builder = Builder::new(layout, points);
     let nodes = lattice::nodes(&builder.layout);
     let mut columns = builder.surfaces()?;
-    let wall = builder.wall(&nodes, scene.points.wall_layers.as_ref());
+    let walls = points.wall_layers.as_ref();
+    let wall = builder.wall(&nodes, walls);
     columns.extend(wall);
-    builder.layers(scene, &mut columns, &plans);
-    builder.lattices(&nodes, &columns, scene.points.arrangement);
-    builder.shake(scene);
-    builder.extra(&scene.points.extra_m)?;
+    builder.layers(&mut columns, &plans, walls);
+    builder.lattices(&nodes, &columns, points.arrangement);
+    builder.shake(points);
+    builder.extra(&points.extra_m)?;
     let mut cloud = builder.cloud;
-    cells::fill(scene, &builder.layout, &columns, &mut cloud);
+    cells::fill(&filling.shares, &builder.layout, &columns, &mut cloud);
     finish(&mut cloud);
     Ok(cloud)
 }
 
 /// Refuses bodies that points cannot follow, and more points than there is room for.
-fn check_sizes(scene: &Scene, layout: &Layout) -> Result<(), Vec<Fault>> {
+fn check_sizes(layout: &Layout, filling: &Filling<'_>) -> Result<(), Vec<Fault>> {
     let mut faults = Vec::new();
     for (k, solid) in layout.solids.iter().enumerate() {
-        let size = width(solid, layout.dimensions);
+        let size = solid.widths(layout.dimensions);
         let widest = size.fold(0.0, f64::max);
         if !widest.is_finite() {
             faults.push(Fault::at(
@@ -82,72 +73,15 @@ fn check_sizes(scene: &Scene, layout: &Layout) -> Result<(), Vec<Fault>> {
         }
     }
     if faults.is_empty() {
-        count::check(scene, layout)
+        count::check(layout, filling)
     } else {
         Err(faults)
     }
 }
 
-/// Bodies with too few points across for the field in them: what to say of each.
-pub(crate) fn grains(scene: &Scene) -> Vec<String> {
-    let layout = setup::layout(scene);
-    let told = |(solid, body): (&crate::cloud::layout::Solid, &crate::scene::BodyScene)| {
-        let widest = width(solid, layout.dimensions).fold(0.0, f64::max);
-        (widest < GRAIN).then(|| {
-            format!(
-                "unresolved: {} is {widest:.1} spacings of {} m wide; fields in it take at least {GRAIN}",
-                body.name, solid.spacing
-            )
-        })
-    };
-    let all = layout.solids.iter().zip(&scene.bodies);
-    all.filter_map(told).collect()
-}
-
-/// The least number of spacings that a body is wide; of the domain where there is none.
-pub(crate) fn narrowest(scene: &Scene) -> f64 {
-    let layout = setup::layout(scene);
-    let widest = |solid| width(solid, layout.dimensions).fold(0.0, f64::max);
-    let bodies = layout.solids.iter().map(widest);
-    bodies.fold(f64::INFINITY, f64::min).min(layout.across())
-}
-
-/// Ellipsoids whose ends bend more sharply than points along them can follow: what to say of each.
-pub(crate) fn bends(scene: &Scene) -> Vec<String> {
-    let layout = setup::layout(scene);
-    let told = |k: usize| {
-        let primitive = layout.solids[k].body.single()?;
-        let Kind::Ellipsoid(ellipsoid) = primitive.kind else {
-            return None;
-        };
-        let end = primitive.frame.place(ellipsoid.end());
-        let radius = ellipsoid.sharpest();
-        let spacing = layout.beside(end, k);
-        (radius < BEND * spacing).then(|| {
-            format!(
-                "{} bends with a radius of {radius:.2e} m at its ends, {:.2} spacings: fields there take at least {BEND}; refine them",
-                scene.bodies[k].name,
-                radius / spacing
-            )
-        })
-    };
-    (0..layout.solids.len()).filter_map(told).collect()
-}
-
-/// Extents of a body over its spacing.
-fn width(
-    solid: &crate::cloud::layout::Solid,
-    dimensions: usize,
-) -> impl Iterator<Item = f64> + Clone {
-    let [low, high] = solid.body.bounds();
-    let spacing = solid.spacing;
-    (0..dimensions).map(move |a| (high[a] - low[a]) / spacing)
-}
-
 /// Thickness of the layers of each body, inside and outside; the layout learns how far they reach.
-fn plans(scene: &Scene, layout: &mut Layout) -> Vec<[Vec<f64>; 2]> {
-    let layers = &scene.points.layers;
-    let plan = |solid: &mut crate::cloud::layout::Solid| {
+fn plans(layers: &Layers, layout: &mut Layout) -> Vec<[Vec<f64>; 2]> {
+    let plan = |solid: &mut Solid| {
         let sides = [layers.inside, layers.outside].map(|n| thicknesses(layers, solid.spacing, n));
         solid.reach = [0, 1].map(|side| sides[side].iter().sum());
         sides
@@ -167,20 +101,21 @@ pub(crate) struct Builder {
 }
 
 impl Builder {
-    fn new(scene: &Scene, layout: Layout) -> Self {
+    fn new(layout: Layout, points: &Points) -> Self {
+        let bodies = layout.solids.iter().map(|solid| solid.name.clone());
         Self {
             occupied: Occupied::new(layout.spacing),
             sizes: Vec::new(),
             widest: 0.0,
             cloud: Cloud {
-                geometry: scene.geometry,
-                media: (0..=scene.bodies.len())
-                    .map(|m| scene.medium_name(m).to_owned())
+                geometry: layout.geometry,
+                media: std::iter::once(SURROUNDINGS.to_owned())
+                    .chain(bodies)
                     .collect(),
                 wall: layout.wall.clone(),
-                faces: scene.domain.walls(scene.geometry),
-                pitch: scene.points.spacing_m,
-                further: scene.points.extra_m.len(),
+                faces: layout.wall.faces(layout.geometry),
+                pitch: points.spacing_m,
+                further: points.extra_m.len(),
                 position: Vec::new(),
                 spacing: Vec::new(),
                 class: Vec::new(),
@@ -230,7 +165,7 @@ impl Builder {
         columns
     }
 
-    /// Points that the scene names one by one, as they are.
+    /// Points that are given one by one, as they are.
     fn extra(&mut self, places: &[Vec<f64>]) -> Result<(), Vec<Fault>> {
         let mut faults = Vec::new();
         for (number, place) in places.iter().enumerate() {

@@ -1,7 +1,7 @@
 use krylov::{Options, Rule, System};
 use nalgebra::DMatrix;
 
-use crate::cloud::Cloud;
+use crate::cloud;
 use crate::electric::equations::{Held, Problem};
 use crate::magnetic::diffusion::Conductors;
 use crate::magnetic::unknown::Unknown;
@@ -14,7 +14,7 @@ use crate::stencils::sides::{Form, Sides};
 /// solved for.
 fn rates(scene: &str, order: u8) -> Vec<f64> {
     let scene: Scene = serde_json::from_str(scene).unwrap();
-    let cloud = Cloud::new(&scene).unwrap();
+    let cloud = cloud::setup::cloud(&scene).unwrap();
     let region = region::<2>(&scene, &cloud, &|_| false);
     let form = Form {
         order,
@@ -100,7 +100,7 @@ fn ball(spacing: f64, order: u8) -> [f64; 2] {
         &format!(r#"{{"spacing_m": {spacing}, "outward": 0}}"#),
     );
     let scene: Scene = serde_json::from_str(&scene).unwrap();
-    let cloud = Cloud::new(&scene).unwrap();
+    let cloud = cloud::setup::cloud(&scene).unwrap();
     let region = region::<2>(&scene, &cloud, &|_| false);
     let form = Form {
         order,

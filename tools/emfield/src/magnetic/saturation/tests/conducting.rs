@@ -1,4 +1,4 @@
-use crate::cloud::Cloud;
+use crate::cloud;
 use crate::magnetic::saturation::equations::Saturation;
 use crate::magnetic::unknown::Unknown;
 use crate::scene::Scene;
@@ -83,7 +83,7 @@ fn the_curl_about_an_axis_is_exact_on_quartics() {
         "eddy_currents": {"static": {}, "outer": "multipole", "applied_flux_density_t": [0, 1]},
         "points": {"spacing_m": 0.2, "layers": {"first_m": 0.1}, "outward": 0}});
     let scene: Scene = serde_json::from_value(scene).unwrap();
-    let cloud = Cloud::new(&scene).unwrap();
+    let cloud = cloud::setup::cloud(&scene).unwrap();
     let region = region::<2>(&scene, &cloud, &|_| false);
     assert!(region.places.iter().any(|p| p[0] == 0.0));
     // What is odd about the axis is known beside it.
