@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const NUMERICS: [&str; 10] = [
+const NUMERICS: [&str; 11] = [
     "neighbours",
     "kernels",
     "props",
@@ -22,6 +22,7 @@ const NUMERICS: [&str; 10] = [
     "contact",
     "particles",
     "torch",
+    "steps",
 ];
 const HARNESS: [&str; 3] = ["artefact", "run", "columns"];
 
@@ -35,7 +36,7 @@ fn root() -> PathBuf {
 /// Arrows that a crate of ours may point along.
 fn allowed(from: &str) -> BTreeSet<&'static str> {
     let set: &[&str] = match from {
-        "neighbours" | "props" | "krylov" | "shapes" | "torch" | "manual" => &[],
+        "neighbours" | "props" | "krylov" | "shapes" | "torch" | "steps" | "manual" => &[],
         "contact" => &["shapes"],
         "kernels" | "particles" => &["neighbours"],
         "wls" => &["neighbours", "krylov"],

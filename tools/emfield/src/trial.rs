@@ -11,7 +11,6 @@ use run::{Estimate, Failure, Taken, duration, trial};
 
 use crate::assemble;
 use crate::cloud::{Cloud, setup};
-use crate::march::steps::Steps;
 use crate::scene::method::Way;
 use crate::scene::{Geometry, Scene};
 
@@ -165,8 +164,8 @@ fn march(scene: &Scene) -> (u64, u64) {
     let march = scene.eddy_currents.as_ref();
     let transient = march.and_then(|e| e.transient.as_ref());
     transient.map_or((0, 1), |transient| {
-        let steps = Steps::new(transient, &scene.output);
-        (steps.count(), 1 + steps.frames())
+        let steps = transient.steps(&scene.output);
+        (steps.count(), 1 + steps.instants())
     })
 }
 

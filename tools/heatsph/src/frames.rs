@@ -2,6 +2,7 @@
 
 use artefact::{Frame, Precision, Record, one_time};
 use run::{Failure, Session};
+use steps::instants::{Instant, every, merged};
 
 use crate::march::State;
 use crate::monitor::Monitor;
@@ -15,29 +16,12 @@ const NOTHING: f64 = 1e-10;
 /// Part of the heat that has moved by which the balance of a march may be off: its solves leave 1e-8.
 const UNBALANCED: f64 = 1e-6;
 
-/// An instant at which something is written.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Event {
-    /// \[s\].
-    pub time: f64,
-    /// Whether the frame of points is written beside the records.
-    pub frame: bool,
-}
-
-impl Event {
-    /// Everything is written.
-    #[must_use]
-    pub fn whole(time: f64) -> Self {
-        Self { time, frame: true }
-    }
-}
-
 /// What is written, and what was there at the start.
 #[derive(Debug, Clone)]
 pub struct Output {
     precision: Precision,
     monitors: Vec<Monitor>,
-    events: Vec<Event>,
+    events: Vec<Instant>,
     /// Temperatures at the start \[K\].
     first: Vec<f64>,
     /// Heats of the cells then \[J\], where capacities depend on temperature.
@@ -73,7 +57,7 @@ impl Output {
 
     /// All instants, rising, from the start to the end.
     #[must_use]
-    pub fn events(&self) -> Vec<Event> {
+    pub fn events(&self) -> Vec<Instant> {
         self.events.clone()
     }
 
@@ -86,10 +70,10 @@ impl Output {
         system: &System,
         state: &State,
         rates: &Rates,
-        event: Event,
+        event: Instant,
         session: &mut Session,
     ) -> Result<(), Failure> {
-        if event.frame {
+        if event.whole {
             session.frame("/points", event.time, &self.frame(system, state))?;
         }
         if !self.monitors.is_empty() {
@@ -192,7 +176,7 @@ pub fn steady(
     session: &mut Session,
 ) -> Result<(), Failure> {
     let mut output = Output::new(scene, system, &state.temperature);
-    output.write(system, state, rates, Event::whole(0.0), session)?;
+    output.write(system, state, rates, Instant::whole(0.0), session)?;
     let (_, watt) = units(system);
     let through: f64 = rates.entries.iter().sum();
     let gross: f64 = rates.entries.iter().map(|e| e.abs()).sum::<f64>() + rates.source.abs();
@@ -254,42 +238,18 @@ fn boundaries(system: &System, state: &State, rates: &Rates) -> Record {
     record
 }
 
-/// Instants of frames and records: start, end, and what the scene asks for.
-fn events(scene: &Scene) -> Vec<Event> {
+/// When something is written: all, or records alone.
+fn events(scene: &Scene) -> Vec<Instant> {
     let Some(time) = &scene.time else {
-        return vec![Event::whole(0.0)];
+        return vec![Instant::whole(0.0)];
     };
     let output = &scene.output;
-    let every = |interval: f64, frame: bool| {
-        let count = (time.end_s / interval * (1.0 + 1e-12)).floor() as u64;
-        (1..=count).map(move |n| Event {
-            time: n as f64 * interval,
-            frame,
-        })
+    let every = |interval: Option<f64>, whole: bool| {
+        let times = interval.into_iter().flat_map(|s| every(s, time.end_s));
+        times.map(move |time| Instant { time, whole })
     };
-    let mut all = vec![Event::whole(0.0), Event::whole(time.end_s)];
-    all.extend(output.at_s.iter().map(|t| Event::whole(*t)));
-    all.extend(output.every_s.into_iter().flat_map(|s| every(s, true)));
-    all.extend(
-        output
-            .monitors_every_s
-            .into_iter()
-            .flat_map(|s| every(s, false)),
-    );
-    all.sort_by(|a, b| a.time.total_cmp(&b.time));
-    let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * time.end_s || one_time(a, b);
-    let mut merged: Vec<Event> = Vec::new();
-    for event in all {
-        match merged.last_mut() {
-            Some(last) if near(last.time, event.time) => {
-                last.frame |= event.frame;
-                // The end is the end, whatever a multiple of the interval rounds to.
-                if near(time.end_s, event.time) {
-                    last.time = time.end_s;
-                }
-            }
-            _ => merged.push(event),
-        }
-    }
-    merged
+    let typed = output.at_s.iter().map(|t| Instant::whole(*t));
+    let frames = typed.chain(every(output.every_s, true));
+    let all = frames.chain(every(output.monitors_every_s, false));
+    merged(all.collect(), time.end_s, one_time)
 }

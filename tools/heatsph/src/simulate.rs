@@ -1,13 +1,15 @@
 //! The march from start to end: steps, outputs, checkpoints.
 
 use run::{Failure, Session};
+use steps::control::suited;
+use steps::even;
+use steps::instants::Instant;
 
 use crate::course::Course;
 use crate::course::prescribed::Heat;
-use crate::frames::{Event, Output};
+use crate::frames::Output;
 use crate::march::choice::{Steps, method};
-use crate::march::control::{self, even, suited, toward};
-use crate::march::{Method, State, StepError, too_cold};
+use crate::march::{Method, State, StepError, nothing, too_cold};
 use crate::pace::Pace;
 use crate::scene::Scene;
 use crate::scene::method::Beyond;
@@ -108,7 +110,7 @@ impl March<'_> {
     }
 
     /// Steps until the event.
-    fn toward(&mut self, event: Event, session: &mut Session) -> Result<(), Failure> {
+    fn toward(&mut self, event: Instant, session: &mut Session) -> Result<(), Failure> {
         while self.state.time < event.time {
             if let Some(after) = self.course.jump(self.state.time) {
                 self.jump(after)?;
@@ -177,7 +179,7 @@ impl March<'_> {
                     "steps of {step:.3e} s are divided where what varies in time asks for {longest:.3e} s"
                 ));
             }
-            even(self.state.time, until, longest)
+            even::step(self.state.time, until, longest)
         };
         let whole = self.state.time + step >= until * (1.0 - f64::EPSILON);
         let jumps = self.course.jump(until).is_some();
@@ -195,10 +197,10 @@ impl March<'_> {
         let longest = self.method.longest(self.system, &self.rates);
         self.pace.limit = self.pace.limit.min(self.system.explicit_limit(&self.rates));
         match self.steps {
-            Steps::Limited => Ok(even(time, until, LIMIT * longest)),
-            Steps::Controlled { .. } => Ok(toward(time, until, self.pace.step.min(longest))),
+            Steps::Limited => Ok(even::step(time, until, LIMIT * longest)),
+            Steps::Controlled { .. } => Ok(even::toward(time, until, self.pace.step.min(longest))),
             Steps::Given(step, beyond) => {
-                let step = even(time, until, step);
+                let step = even::step(time, until, step);
                 if step <= longest * (1.0 + 1e-9) {
                     return Ok(step);
                 }
@@ -284,7 +286,7 @@ impl March<'_> {
         if let Steps::Controlled { tolerance, floor } = self.steps {
             let (low, high) = extent(&self.state.temperature);
             let wanted = tolerance * self.pace.range.max(high - low);
-            let floor = floor.unwrap_or_else(|| control::floor(low, high));
+            let floor = floor.unwrap_or_else(|| nothing(low, high));
             let ratio = error / wanted.max(floor).max(f64::MIN_POSITIVE);
             if ratio.is_nan() {
                 return Ok(Some(0.25 * step));
@@ -310,7 +312,7 @@ impl March<'_> {
     fn write(
         &mut self,
         output: &mut Output,
-        event: Event,
+        event: Instant,
         session: &mut Session,
     ) -> Result<(), Failure> {
         output.write(self.system, &self.state, &self.rates, event, session)

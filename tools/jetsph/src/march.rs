@@ -14,8 +14,9 @@
 //! the pairs once, and sound keeps its energy up to omega dt = 2.
 
 use particles::{POSITION, sweep};
+use steps::Limit;
 
-use crate::stage::{Limit, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::{ACCELERATION, DENSITY, DENSITY_RATE, State, VELOCITY};
 
 /// Stages in the order of a step.
@@ -32,8 +33,7 @@ impl March {
     /// The smallest limit of all stages.
     #[must_use]
     pub fn limit(&self, state: &State) -> Option<Limit> {
-        let limits = self.stages.iter().filter_map(|stage| stage.limit(state));
-        limits.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+        Limit::least(self.stages.iter().filter_map(|stage| stage.limit(state)))
     }
 
     /// Accelerations at the start.

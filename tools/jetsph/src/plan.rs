@@ -1,12 +1,13 @@
 //! What a run would do, as `check` tells it.
 
 use run::{Failure, Fault, Plan};
+use steps::instants;
 
 use crate::assemble::Assembled;
 use crate::frames;
 use crate::memory;
 use crate::scene::{Method, Scene};
-use crate::simulate::{AT, endless};
+use crate::simulate::endless;
 
 /// What is done before a run, and told by `check`.
 ///
@@ -20,7 +21,7 @@ pub(crate) fn plan(scene: &Scene, run: &Assembled) -> Result<Plan, Failure> {
         notes,
     } = run;
     let mut plan = Plan::new().count("particles", state.len() as u64);
-    let frames = (scene.time.end_s / scene.output.frames_interval_s + AT).floor() as u64 + 1;
+    let frames = instants::count(scene.time.end_s, scene.output.frames_interval_s);
     for set in &state.sets {
         let n = set.len() as u64;
         plan = plan.count(&format!("particles of {}", set.name()), n);

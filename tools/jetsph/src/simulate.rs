@@ -2,13 +2,14 @@
 
 use particles::{POSITION, sweep};
 use run::{Failure, Session};
+use steps::{Limit, even, instants};
 
 use crate::assemble::Assembled;
 use crate::balance::Balance;
 use crate::frames;
 use crate::resume;
 use crate::scene::Scene;
-use crate::stage::{Limit, StageError, place_text};
+use crate::stage::{StageError, place_text};
 use crate::state::{State, VELOCITY};
 
 /// More steps than this never end.
@@ -17,8 +18,6 @@ const STEPS_MOST: f64 = 1e9;
 const WATCH_STEPS: u64 = 50;
 /// Shares of the progress bar.
 const SHARES: f64 = 1e4;
-/// A time that is nearer to an event than this part of a step is at it.
-pub(crate) const AT: f64 = 1e-6;
 
 /// Why a run would never end.
 pub(crate) fn endless(scene: &Scene, limit: Limit) -> Option<String> {
@@ -28,7 +27,7 @@ pub(crate) fn endless(scene: &Scene, limit: Limit) -> Option<String> {
             .min(scene.time.step_s.unwrap_or(f64::INFINITY));
     // A limit that is no number is none that can be kept.
     (steps.is_nan() || steps > STEPS_MOST).then(|| {
-        let Limit { seconds, name } = limit;
+        let Limit { seconds, name, .. } = limit;
         let end = scene.time.end_s;
         format!(
             "{end} s is {steps:.1e} steps of {seconds:.3e} s, the limit of '{name}'; at most {STEPS_MOST:.0e}"
@@ -75,8 +74,8 @@ impl<'a> Simulation<'a> {
     /// The next time at which something is due \[s\].
     fn next_event(&self) -> f64 {
         let (time, output) = (self.run.state.time, &self.scene.output);
-        let next = |interval: f64| interval * ((time / interval + AT).floor() + 1.0);
-        let events = [output.frames_interval_s, output.balance_interval()].map(next);
+        let intervals = [output.frames_interval_s, output.balance_interval()];
+        let events = intervals.map(|interval| instants::after(time, interval));
         events.into_iter().fold(self.scene.time.end_s, f64::min)
     }
 
@@ -98,7 +97,7 @@ impl<'a> Simulation<'a> {
         let given = self.scene.time.step_s.unwrap_or(f64::INFINITY);
         let longest = limit.map_or(given, |limit| limit.seconds.min(given));
         let (time, event) = (self.run.state.time, self.next_event());
-        let parts = ((event - time) / longest - AT).ceil().max(1.0);
+        let parts = even::parts(event - time, longest);
         let dt = (event - time) / parts;
         if limit.is_some_and(|limit| limit.seconds < given) && self.scene.time.step_s.is_some() {
             session.substepped();
@@ -127,10 +126,7 @@ impl<'a> Simulation<'a> {
         let Assembled { march, state, .. } = &mut self.run;
         let output = &self.scene.output;
         let (time, end) = (state.time, self.scene.time.end_s);
-        let is_due = |interval: f64| {
-            let turn = time / interval;
-            (turn - turn.round()).abs() < AT || time >= end
-        };
+        let is_due = |interval: f64| instants::is_at(time, interval) || time >= end;
         watch(state)?;
         if is_due(output.frames_interval_s) {
             for stage in &march.stages {

@@ -3,9 +3,13 @@
 //! A stage declares the columns it needs, adds the accelerations that it causes, bounds the step and may say a few
 //! numbers. The march knows nothing else of it; dispatch is dynamic once per stage and step, never per pair.
 
+use steps::Limit;
 use thiserror::Error;
 
 use crate::state::State;
+
+/// A number that a stage wants shown and recorded; names hold those of sets.
+pub type Figure = steps::Figure<String>;
 
 /// Why a stage could not go on.
 #[derive(Debug, Error)]
@@ -33,26 +37,6 @@ pub enum StageError {
 #[must_use]
 pub fn place_text([x, y, z]: [f64; 3]) -> String {
     format!("({x:.4e}, {y:.4e}, {z:.4e}) m")
-}
-
-/// A bound on the step and who sets it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limit {
-    /// Largest stable step \[s\].
-    pub seconds: f64,
-    /// For example `acoustic`.
-    pub name: &'static str,
-}
-
-/// A number that a stage wants shown and recorded.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Figure {
-    /// For example `elastic_energy`.
-    pub name: String,
-    /// SI unit, `1` for none.
-    pub unit: &'static str,
-    /// Value now.
-    pub value: f64,
 }
 
 /// What a stage puts into the balances of energy and momentum.

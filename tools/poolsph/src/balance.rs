@@ -2,9 +2,9 @@
 
 use artefact::Record;
 use particles::POSITION;
+use steps::Figure;
 
 use crate::domain::bounds::SPATTER;
-use crate::stage::Figure;
 use crate::state::{DROPLET, ENTHALPY, PHASE, State, VELOCITY, WALL, marked, phase};
 
 /// An energy balance that closes to this part is good.

@@ -124,7 +124,7 @@ pub fn grains(set: &Set, width: FloatWidth) -> Frame {
 /// Frames that are written every `interval` \[s\], at the start and at the end.
 #[must_use]
 pub fn count(scene: &Scene, interval: f64) -> u64 {
-    let due = crate::scene::due(scene.steps(), scene.step(), interval);
+    let due = steps::instants::due(scene.steps(), scene.step(), interval);
     let turns = (scene.time.end_s / interval.max(scene.step())).floor() as u64;
     // The last state is written whether its turn has come or not.
     turns + 1 + u64::from(!due)

@@ -21,7 +21,6 @@ pub mod heat;
 pub mod march;
 pub mod memory;
 pub mod motion;
-pub mod pace;
 pub mod patch;
 mod plan;
 pub mod probes;

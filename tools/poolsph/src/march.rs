@@ -1,7 +1,8 @@
 //! The march in time: knows stages, not physics.
 
-use crate::pace::Pace;
-use crate::stage::{Figure, Limit, Stage, StageError};
+use steps::{Figure, Limit, Strides};
+
+use crate::stage::{Stage, StageError};
 use crate::state::State;
 
 /// Stages that belong together, in order.
@@ -43,7 +44,7 @@ impl Group {
 /// Groups of stages in the order of a step; see [`crate::stage`].
 pub struct March {
     groups: Vec<Group>,
-    pace: Pace,
+    strides: Strides,
 }
 
 /// How a step went.
@@ -65,26 +66,26 @@ impl March {
     pub fn new(groups: Vec<Group>, dt: f64) -> Self {
         Self {
             groups,
-            pace: Pace::even(dt),
+            strides: Strides::even(dt),
         }
     }
 
     /// The same with steps that hold up to `greatest` of the given length.
     #[must_use]
     pub fn adaptive(mut self, greatest: u64) -> Self {
-        self.pace.greatest = greatest;
+        self.strides.greatest = greatest;
         self
     }
 
     /// How long its steps are.
     #[must_use]
-    pub fn pace(&self) -> &Pace {
-        &self.pace
+    pub fn strides(&self) -> &Strides {
+        &self.strides
     }
 
     /// The same, to restore it.
-    pub fn pace_mut(&mut self) -> &mut Pace {
-        &mut self.pace
+    pub fn strides_mut(&mut self) -> &mut Strides {
+        &mut self.strides
     }
 
     /// All stages in order.
@@ -101,9 +102,7 @@ impl March {
     /// The smallest limit of all stages.
     #[must_use]
     pub fn limit(&self, state: &State) -> Option<Limit> {
-        self.stages()
-            .filter_map(|stage| stage.dt_limit(state))
-            .min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+        Limit::least(self.stages().filter_map(|stage| stage.limit(state)))
     }
 
     /// Fills the columns that only frames show.
@@ -128,15 +127,15 @@ impl March {
             &mut dyn FnMut() -> Result<(), StageError>,
         ) -> Result<(), StageError>,
     ) -> Result<Stepped, StageError> {
-        if self.pace.grows() {
+        if self.strides.grows() {
             let longest = self.stages().map(|stage| stage.follows(state));
             let longest = longest.fold(f64::INFINITY, f64::min);
             let marks = self.stages().filter_map(|stage| stage.next(state.time));
             let mark = marks.fold(f64::INFINITY, f64::min);
-            self.pace.choose(state.step, until, mark, longest);
+            self.strides.choose(state.step, until, mark, longest);
         }
-        state.stride = self.pace.stride;
-        let dt = self.pace.step();
+        state.stride = self.strides.stride;
+        let dt = self.strides.step();
         for group in &mut self.groups {
             if group.gathers {
                 timed("gather", &mut || {
@@ -150,7 +149,7 @@ impl March {
         }
         state.time = state.end(dt);
         state.step += state.stride;
-        self.pace.taken += 1;
+        self.strides.taken += 1;
         Ok(Stepped {
             dt,
             stride: state.stride,

@@ -22,7 +22,7 @@ pub(crate) fn plan(scene: &Scene, assembled: &Assembled) -> Result<Plan, Failure
             .count("particles", state.len() as u64)
             .count("liquid at the start", state.liquid() as u64);
     }
-    let steps = if assembled.march.pace().grows() {
+    let steps = if assembled.march.strides().grows() {
         "steps at most"
     } else {
         "steps"
@@ -32,7 +32,7 @@ pub(crate) fn plan(scene: &Scene, assembled: &Assembled) -> Result<Plan, Failure
     plan = with_bodies(plan, scene, assembled)?;
     for stage in assembled.march.stages() {
         plan = plan.stage(stage.name());
-        if let Some(limit) = stage.dt_limit(state) {
+        if let Some(limit) = stage.limit(state) {
             let step = scene.step();
             if let Some(what) = endless(step, limit).or_else(|| undivided(step, limit)) {
                 let fault = Fault::at("/time/step_s", what).or_at("/spacing_m");

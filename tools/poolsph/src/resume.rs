@@ -17,7 +17,7 @@ pub fn save(checkpoint: &mut Checkpoint, state: &State, march: &March, start: St
     }
     checkpoint.put_u8("flowing", &[u8::from(state.flowing)]);
     checkpoint.put_u64("step", &[state.step]);
-    checkpoint.put_u64("pace", &[march.pace().stride, march.pace().taken]);
+    checkpoint.put_u64("pace", &[march.strides().stride, march.strides().taken]);
     checkpoint.put_f64("start", &[start.mass, start.stored]);
     for (place, stage) in march.stages().enumerate() {
         checkpoint.put_f64(&stage_name(place, stage.name()), &stage.save());
@@ -43,8 +43,8 @@ pub fn restore(
     state.step = checkpoint.u64("step")?.first().copied().unwrap_or(0);
     state.time = state.step as f64 * dt;
     if let [stride, taken] = checkpoint.u64("pace")?[..] {
-        let pace = march.pace_mut();
-        (pace.stride, pace.taken) = (stride, taken);
+        let strides = march.strides_mut();
+        (strides.stride, strides.taken) = (stride, taken);
     }
     let start = checkpoint.f64("start")?;
     for (place, stage) in march.stages_mut().enumerate() {

@@ -1,6 +1,8 @@
 //! A run from the first step to the last: what is written when, and what stops it.
 
 use run::{Failure, Session};
+use steps::Figure;
+use steps::instants::due;
 
 use crate::assemble::Assembled;
 use crate::balance::{Balance, Start, thrown, unclosed};
@@ -8,8 +10,7 @@ use crate::frames::{self, SourceNote};
 use crate::grains::totals::Totals;
 use crate::probes;
 use crate::resume;
-use crate::scene::{PoolOutput, Scene, due};
-use crate::stage::Figure;
+use crate::scene::{PoolOutput, Scene};
 use crate::state::State;
 use crate::watch::{bounded, endless, failure, undivided, watch};
 
@@ -96,7 +97,7 @@ impl<'a> Simulation<'a> {
     /// The next step at which something is due.
     fn mark(&self) -> u64 {
         let (step, dt) = (self.run.state.step, self.scene.step());
-        if !self.run.march.pace().grows() {
+        if !self.run.march.strides().grows() {
             return step + 1;
         }
         self.scene.output.next(step, dt).min(self.scene.steps())
@@ -213,8 +214,8 @@ impl<'a> Simulation<'a> {
                 session.closing(figure.name, figure.unit, figure.value);
             }
         }
-        if march.pace().grows() {
-            let taken = march.pace().taken as f64;
+        if march.strides().grows() {
+            let taken = march.strides().taken as f64;
             session.closing("steps_taken", "1", taken);
             session.closing("step_mean", "s", state.time / taken);
         }

@@ -19,6 +19,7 @@
 //! ```
 
 use artefact::Frame;
+use steps::{Figure, Limit};
 use thiserror::Error;
 
 use crate::state::State;
@@ -52,49 +53,6 @@ pub enum StageError {
     Data(String),
 }
 
-/// A bound on the step and who sets it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limit {
-    /// Largest stable step \[s\].
-    pub seconds: f64,
-    /// For example `viscosity`, `courant`, `conduction`.
-    pub name: &'static str,
-    /// What becomes of a step beyond it.
-    pub beyond: Beyond,
-}
-
-/// What becomes of a step beyond a limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Beyond {
-    /// The stage divides it within itself.
-    Divides,
-    /// Nothing divides it: the scene is refused.
-    Refuses,
-}
-
-impl Limit {
-    /// A limit beyond which the stage divides the step.
-    #[must_use]
-    pub fn dividing(name: &'static str, seconds: f64) -> Self {
-        Self {
-            seconds,
-            name,
-            beyond: Beyond::Divides,
-        }
-    }
-}
-
-/// A number that a stage wants shown and recorded.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Figure {
-    /// For example `density_error_mean`.
-    pub name: &'static str,
-    /// SI unit, `1` for none.
-    pub unit: &'static str,
-    /// Value after the last step.
-    pub value: f64,
-}
-
 /// One physical effect.
 pub trait Stage: Send {
     /// Name in the status, the record and the plan.
@@ -104,14 +62,14 @@ pub trait Stage: Send {
     fn declare(&self, _state: &mut State) {}
 
     /// Its bound on the step in the present state, if it has one.
-    fn dt_limit(&self, _state: &State) -> Option<Limit> {
+    fn limit(&self, _state: &State) -> Option<Limit> {
         None
     }
 
     /// The longest step that follows what it does \[s\], where the scene lets steps grow: its limit, unless it divides
     /// steps at little cost.
     fn follows(&self, state: &State) -> f64 {
-        let limit = self.dt_limit(state);
+        let limit = self.limit(state);
         limit.map_or(f64::INFINITY, |limit| limit.seconds)
     }
 

@@ -2,8 +2,9 @@
 
 use particles::{POSITION, Store};
 use run::Failure;
+use steps::{Beyond, Limit};
 
-use crate::stage::{Beyond, Limit, StageError};
+use crate::stage::StageError;
 use crate::state::State;
 use crate::vector::squared;
 
@@ -28,8 +29,7 @@ pub(crate) fn endless(dt: f64, limit: Limit) -> Option<String> {
 /// Why a step beyond a limit that nothing divides cannot be taken.
 pub(crate) fn undivided(dt: f64, limit: Limit) -> Option<String> {
     let Limit { seconds, name, .. } = limit;
-    // A step at the very limit is within it, whatever its last bit.
-    let beyond = dt > seconds * (1.0 + 1e-9) && limit.beyond == Beyond::Refuses;
+    let beyond = limit.is_passed(dt) && limit.beyond == Beyond::Refuses;
     beyond.then(|| {
         format!("{dt} s is beyond the limit of '{name}', {seconds:.3e} s, and nothing divides it")
     })

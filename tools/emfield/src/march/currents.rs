@@ -3,10 +3,10 @@
 use artefact::Checkpoint;
 use krylov::{Ending, Rescue, Solved};
 use run::{Failure, Session};
+use steps::Legs;
 
 use super::growth::Growth;
 use super::scheme::{March, Settled, slope};
-use super::steps::Steps;
 use super::wave::Wave;
 use crate::frames::Found;
 use crate::magnetic::charge::fields::Lack;
@@ -65,7 +65,7 @@ pub(crate) fn march<const D: usize, const K: usize>(
     session: &mut Session,
     mut write: impl FnMut(f64, Found, &mut Session) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let (steps, wave) = (Steps::new(transient, output), Wave::new(transient)?);
+    let (steps, wave) = (transient.steps(output), Wave::new(transient)?);
     judge(problem, &wave, &steps, session)?;
     let drive = session.timed("source", || problem.drive::<K>());
     let flux = problem.source.flux(&problem.cloud.position);
@@ -130,7 +130,7 @@ pub(crate) fn march<const D: usize, const K: usize>(
 fn judge<const D: usize>(
     problem: &Problem<'_, D>,
     wave: &Wave,
-    steps: &Steps,
+    steps: &Legs,
     session: &mut Session,
 ) -> Result<(), Failure> {
     problem.warn_over(wave.lasts(steps)?, session);
@@ -141,7 +141,7 @@ fn judge<const D: usize>(
 }
 
 /// Tells what the march took.
-fn close(steps: &Steps, effort: Effort, session: &mut Session) {
+fn close(steps: &Legs, effort: Effort, session: &mut Session) {
     session.steps(steps.count());
     session.closing("step", "s", steps.longest());
     session.closing("products_march", "1", effort.products as f64);
@@ -183,7 +183,7 @@ fn save(
 fn restore(
     march: &mut March<'_>,
     growth: &mut Growth,
-    steps: &Steps,
+    steps: &Legs,
     checkpoint: &mut Checkpoint,
 ) -> Result<(u64, f64, Effort), Failure> {
     let lacks = |what: &str| Failure::Other(format!("the checkpoint lacks a part{what}"));

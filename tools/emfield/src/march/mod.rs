@@ -1,6 +1,5 @@
 //! Steps in time: the loops over them, what they keep and what is written.
 //!
-//! - `steps`: even ones between the instants that are asked for;
 //! - [`scheme`]: two stages of an implicit Runge-Kutta method;
 //! - `currents`: eddy currents from rest to the end; `growth`: what of them grows though nothing drives it;
 //!   `wave`: what drives them, and whether steps follow it;
@@ -10,5 +9,4 @@ pub(crate) mod currents;
 mod growth;
 pub(crate) mod liquid;
 pub mod scheme;
-pub(crate) mod steps;
 mod wave;

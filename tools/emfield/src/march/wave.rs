@@ -6,9 +6,9 @@
 
 use run::Failure;
 use run::property::{Arguments, Curve, Property};
+use steps::Legs;
 
 use super::scheme::GAMMA;
-use super::steps::Steps;
 use crate::scene::currents::Transient;
 
 /// Part of its greatest value by which a wave may leave the straight line over a step, and what the step sees.
@@ -41,7 +41,7 @@ impl Wave {
     }
 
     /// How long it takes to change by its greatest value, in the mean over all steps from rest on \[s\]: 1/omega of a sine.
-    pub(crate) fn lasts(&self, steps: &Steps) -> Result<f64, Failure> {
+    pub(crate) fn lasts(&self, steps: &Legs) -> Result<f64, Failure> {
         let (mut before, mut most, mut way) = (0.0, 0.0_f64, 0.0);
         let count = if self.0.depends_on("t") {
             steps.count()
@@ -64,7 +64,7 @@ impl Wave {
     }
 
     /// What to tell where steps do not follow it.
-    pub(crate) fn doubt(&self, steps: &Steps) -> Result<Option<String>, Failure> {
+    pub(crate) fn doubt(&self, steps: &Legs) -> Result<Option<String>, Failure> {
         if !self.0.depends_on("t") {
             return Ok(None);
         }
@@ -142,13 +142,13 @@ mod tests {
     use super::*;
     use crate::scene::Output;
 
-    fn march(wave: &str, step_s: f64) -> (Wave, Steps) {
+    fn march(wave: &str, step_s: f64) -> (Wave, Legs) {
         let transient = Transient {
             end_s: 1.0,
             step_s,
             wave: serde_json::from_str(&format!(r#"{{"expr": "{wave}"}}"#)).unwrap(),
         };
-        let steps = Steps::new(&transient, &Output::default());
+        let steps = transient.steps(&Output::default());
         (Wave::new(&transient).unwrap(), steps)
     }
 

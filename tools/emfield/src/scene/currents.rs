@@ -3,8 +3,9 @@
 use run::property::Property;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use steps::Legs;
 
-use super::Geometry;
+use super::{Geometry, Output};
 
 /// What the currents and fields of a scene mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
@@ -45,6 +46,13 @@ pub struct Transient {
     /// start.
     #[schemars(extend("x-unit" = "1"))]
     pub wave: Option<Property>,
+}
+
+impl Transient {
+    /// Its steps, which end at each instant that is written.
+    pub(crate) fn steps(&self, output: &Output) -> Legs {
+        Legs::new(self.step_s, output.instants(self.end_s))
+    }
 }
 
 /// A circular loop.

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 use shapes::Shape;
+use steps::instants::{Instant, every, merged};
 
 /// A place whose fields are written.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
@@ -120,6 +121,17 @@ pub struct Output {
 
 fn yes() -> bool {
     true
+}
+
+impl Output {
+    /// Instants of frames after the start of a march up to `end` \[s\], rising, the end last.
+    pub(crate) fn instants(&self, end: f64) -> Vec<f64> {
+        let typed = self.at_s.iter().copied();
+        let often = self.every_s.into_iter().flat_map(|s| every(s, end));
+        let all = typed.chain(often).map(Instant::whole).collect();
+        let after = merged(all, end, artefact::one_time).into_iter().skip(1);
+        after.map(|instant| instant.time).collect()
+    }
 }
 
 impl Default for Output {

@@ -11,7 +11,7 @@
 //! Where a step of given length is so long that the error estimate is a good part of the range of temperature, or
 //! where its result leaves the range of what came before, it is taken by the implicit Euler method, which does.
 
-use super::control::floor;
+use super::nothing;
 use super::{End, Method, State, StepError, estimate};
 use crate::solve::{Goal, Problem, Solver};
 use crate::system::{Rates, System, extent};
@@ -238,7 +238,7 @@ fn rough(system: &System, before: &State, after: &State, error: f64) -> bool {
         (low, high) = (low.min(t), high.max(t));
     }
     let (least, greatest) = extent(&after.temperature);
-    let floor = floor(least, greatest);
+    let floor = nothing(least, greatest);
     let range = high - low;
     let sources = system.has_source() || !system.surface.films.is_empty();
     let beyond = (low - least).max(greatest - high) > OVER * range + floor;

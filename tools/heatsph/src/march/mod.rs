@@ -1,7 +1,6 @@
 //! The march in time: explicit, stabilised, implicit.
 
 pub mod choice;
-pub mod control;
 pub mod explicit;
 pub mod implicit;
 pub mod stabilised;
@@ -32,6 +31,16 @@ pub struct State {
     pub entries: Vec<f64>,
     /// Heat of the source since the start \[J\].
     pub source: f64,
+}
+
+/// Part of a temperature below which differences are none.
+const NOTHING: f64 = 1e-10;
+
+/// The difference of temperature below which there is none, where temperatures lie between `low` and `high` \[K\]:
+/// errors over the range of temperature say nothing of a body of one temperature.
+#[must_use]
+pub fn nothing(low: f64, high: f64) -> f64 {
+    NOTHING * low.abs().max(high.abs())
 }
 
 /// What is said of a temperature \[K\] below 0 K.

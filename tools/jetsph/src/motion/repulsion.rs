@@ -10,8 +10,9 @@
 
 use particles::{POSITION, sweep};
 use shapes::Body;
+use steps::Limit;
 
-use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
+use crate::stage::{Course, Entry, Figure, Stage, StageError};
 use crate::state::{ACCELERATION, MASS, State, VELOCITY};
 
 /// Nothing comes nearer than this part of d0: the force grows without end there.
@@ -102,10 +103,7 @@ impl Stage for Wall {
                 .min(PART * law.range / speed.map_or(0.0, |(_, most)| most))
         });
         let seconds = seconds.fold(f64::INFINITY, f64::min);
-        Some(Limit {
-            seconds,
-            name: "repulsion",
-        })
+        Some(Limit::dividing("repulsion", seconds))
     }
 
     fn act(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {

@@ -7,8 +7,9 @@ use particles::{Matter, POSITION};
 use run::Fault;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use steps::Figure;
 
-use crate::stage::{Figure, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::{PHASE, State, VELOCITY, phase};
 
 /// The box in which metal is followed (key `bounds`).

@@ -17,13 +17,14 @@ use run::Fault;
 use run::property::{Arguments, Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use steps::Figure;
 
 use crate::near::Role;
 use crate::patch::{self, Patches};
 use crate::source::Place;
 use crate::source::arc::Radial;
 use crate::source::arcs::Burning;
-use crate::stage::{Figure, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::State;
 use crate::vector::plus;
 

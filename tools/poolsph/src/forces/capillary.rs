@@ -5,9 +5,10 @@
 //! `sqrt(rho d^3/(2 pi gamma))` (Brackbill, Kothe and Zemach 1992). The motion divides longer steps.
 
 use particles::Matter;
+use steps::Limit;
 
 use crate::near::{Near, Role};
-use crate::stage::{Limit, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::State;
 
 use super::tension::Parameters;
@@ -44,7 +45,7 @@ impl Stage for Capillary {
         "tension"
     }
 
-    fn dt_limit(&self, state: &State) -> Option<Limit> {
+    fn limit(&self, state: &State) -> Option<Limit> {
         // The motion divides the step by it.
         let liquid = state.near.liquid_count() > 0;
         liquid.then(|| Limit::dividing("capillary", longest(state.metal.matter, self.tension)))

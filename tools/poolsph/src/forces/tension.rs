@@ -29,11 +29,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use neighbours::ROWS;
+use steps::Limit;
 
 use crate::faces::Turn;
 use crate::motion::lattice::Lattice;
 use crate::near::{Near, Role};
-use crate::stage::{Beyond, Limit, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::State;
 use crate::vector::{dot, minus, plus, squared};
 
@@ -199,13 +200,9 @@ impl Stage for Tension {
         "tension"
     }
 
-    fn dt_limit(&self, _: &State) -> Option<Limit> {
+    fn limit(&self, _: &State) -> Option<Limit> {
         // The pull of the begin of a step acts until its end: no part of it is taken anew.
-        Some(Limit {
-            seconds: self.limit,
-            name: "capillary",
-            beyond: Beyond::Refuses,
-        })
+        Some(Limit::refusing("capillary", self.limit))
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {

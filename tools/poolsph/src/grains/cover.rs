@@ -5,9 +5,10 @@
 //! (Komen 2019, eq. 5.33: the last term is that of metal in gas; `a in Flux` has the first).
 
 use particles::POSITION;
+use steps::Figure;
 
 use super::around::Around;
-use crate::stage::{Figure, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::State;
 
 /// The cover of grains as a stage.

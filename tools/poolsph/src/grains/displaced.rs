@@ -14,11 +14,12 @@ use kernels::CubicSpline;
 use particles::Matter;
 use rayon::prelude::*;
 use shapes::rule::gauss;
+use steps::Figure;
 
 use super::Mirrors;
 use super::around::Around;
 use crate::near::Role;
-use crate::stage::{Figure, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::State;
 
 /// Places of the rule of Gauss on each part of the shells.

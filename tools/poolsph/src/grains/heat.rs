@@ -19,6 +19,7 @@ use particles::{POSITION, Set, sweep};
 use rayon::prelude::*;
 use run::Fault;
 use run::property::{Arguments, Curve, OutOfRange};
+use steps::Figure;
 
 use super::MASS;
 use super::columns::{ENTHALPY, FROZEN, HELD, SLAG, STATE, TEMPERATURE};
@@ -32,7 +33,7 @@ use super::neighbours::Neighbours;
 use super::parameters::{ConductanceScene, GrainHeat, Parameters};
 use super::slow::{Busy, Long, Pass, SLOW};
 use crate::heat::Caloric;
-use crate::stage::{Figure, StageError};
+use crate::stage::StageError;
 use crate::state::{LIQUID, State};
 
 /// Heat of grains as a stage.

@@ -16,9 +16,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use shapes::frame::{Vector, difference, dot};
 use shapes::surface::Piece;
+use steps::Figure;
 
 use super::pressure::Pressed;
-use crate::stage::Figure;
 
 /// Stefan and Boltzmann's constant \[W/(m2 K4)\].
 const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;

@@ -1,11 +1,12 @@
 //! How long a step may be now, and when there is none any more.
 
 use contact::Grain;
+use steps::Limit;
 
 use super::law::Law;
 use super::metal::Metal;
 use super::motion::Motion;
-use crate::stage::{Limit, StageError};
+use crate::stage::StageError;
 use crate::state::State;
 
 impl Motion {

@@ -16,13 +16,13 @@ use contact::Normal;
 use neighbours::{Grid, Halo};
 use rayon::prelude::*;
 use shapes::frame::{Vector, along, difference};
+use steps::Figure;
 
 use super::depth::Reckoned;
 use super::law::Laws;
 use super::memory::Memory;
 use super::metal_heat::{Contacts, Exchange};
 use super::metal_pair::{Body, Pair};
-use crate::stage::Figure;
 use crate::state::State;
 
 /// Skin of the list over the least radius.

@@ -6,6 +6,7 @@ use particles::{ID, Set};
 use run::Fault;
 use run::property::OutOfRange;
 use shapes::frame::dot;
+use steps::{Figure, Limit};
 
 use super::bounds::{Doing, Setting};
 use super::columns::STATE;
@@ -23,7 +24,7 @@ use super::parameters::{BoundsScene, Parameters, RestScene};
 use super::sleep::{Sleep, depth};
 use super::walls::{self, Walls};
 use super::{MASS, RADIUS, VELOCITY, pairs};
-use crate::stage::{Figure, Limit, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::State;
 
 /// The motion of grains.
@@ -255,7 +256,7 @@ impl Stage for Motion {
         "grains"
     }
 
-    fn dt_limit(&self, _: &State) -> Option<Limit> {
+    fn limit(&self, _: &State) -> Option<Limit> {
         let motion = self.limit();
         let conduction =
             (self.heat.as_ref()).map(|heat| Limit::dividing("grain_conduction", heat.limit));

@@ -16,6 +16,7 @@ use std::sync::Arc;
 use particles::{Matter, POSITION};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use steps::Figure;
 
 use super::bounds::outside;
 use super::caloric::Caloric;
@@ -25,7 +26,7 @@ use super::received::{self, LOST};
 use super::skin::Skin;
 use super::vapour::Evaporation;
 use crate::patch;
-use crate::stage::{Figure, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 /// Stefan-Boltzmann constant \[W/(m2 K4)\].

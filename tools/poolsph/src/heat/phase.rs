@@ -11,10 +11,11 @@ use std::sync::Arc;
 use particles::POSITION;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use steps::Figure;
 
 use super::caloric::Caloric;
 use super::contact::Contact;
-use crate::stage::{Figure, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::{
     DROPLET, ENTHALPY, FUSED, LIQUID, PHASE, State, TEMPERATURE, VELOCITY, WALL, marked, phase,
 };

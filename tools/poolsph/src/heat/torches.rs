@@ -13,6 +13,7 @@ use std::sync::Arc as Shared;
 
 use particles::{Matter, POSITION};
 use run::Fault;
+use steps::Figure;
 use torch::{Beyond, Stand, Torch};
 
 use super::bounds::outside;
@@ -23,7 +24,7 @@ use super::received::{self, FROM_TORCHES};
 use super::shade::Shade;
 use super::skin::Skin;
 use crate::patch;
-use crate::stage::{Figure, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 /// Part of the least half axis by which a torch moves between two looks.

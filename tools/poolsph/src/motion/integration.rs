@@ -3,6 +3,7 @@
 
 use particles::{Column, Matter, POSITION};
 use rayon::prelude::*;
+use steps::{Figure, Limit};
 
 use super::around::Around;
 use super::divergence_free::{Closing, DivergenceFree};
@@ -16,7 +17,7 @@ use super::step::{Solved, Step, Tolerance};
 use super::viscosity::Viscosity;
 use crate::forces::capillary;
 use crate::near::{Near, Role};
-use crate::stage::{Figure, Limit, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::{PHASE, State, TEMPERATURE, VELOCITY, phase};
 use crate::sweep::GRAIN;
 use crate::vector::{plus, squared};
@@ -234,7 +235,7 @@ impl Stage for Motion {
         }
     }
 
-    fn dt_limit(&self, state: &State) -> Option<Limit> {
+    fn limit(&self, state: &State) -> Option<Limit> {
         let courant = COURANT * state.metal.matter.spacing / self.speed;
         let viscous = self.viscosity.limit();
         Some(if self.fall < courant.min(viscous) {

@@ -19,7 +19,7 @@ pub use body::{BodyScene, CutScene, StartState};
 pub use check::faults;
 pub use lattice::Lattice;
 pub use odd::{doubts, notes};
-pub use output::{FloatWidth, Output, PoolOutput, due};
+pub use output::{FloatWidth, Output, PoolOutput};
 pub use time::{Adaptive, Time};
 
 use crate::domain::{bounds, droplet};

@@ -3,6 +3,7 @@
 use artefact::Precision;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use steps::instants::next_due;
 
 use crate::probes::Probe;
 
@@ -122,61 +123,4 @@ pub struct PoolOutput {
     /// Reach of the box ahead of the source \[m\].
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub ahead_m: f64,
-}
-
-/// Whether something that is due every `interval` \[s\] is due at `step` of length `dt` \[s\]: at
-/// the step nearest to each of its times.
-#[must_use]
-pub fn due(step: u64, dt: f64, interval: f64) -> bool {
-    let turn = (step as f64 * dt / interval).round();
-    nearest(turn, dt, interval) == step
-}
-
-/// The first step after `step` at which it is due.
-fn next_due(step: u64, dt: f64, interval: f64) -> u64 {
-    if interval <= dt {
-        return step + 1;
-    }
-    let mut turn = (step as f64 * dt / interval).floor();
-    loop {
-        let next = nearest(turn, dt, interval);
-        if next > step {
-            return next;
-        }
-        turn += 1.0;
-    }
-}
-
-/// The step nearest to the time of a turn.
-fn nearest(turn: f64, dt: f64, interval: f64) -> u64 {
-    // Half a step rounds up, whatever the rounding of the quotient.
-    (turn * interval / dt + 0.5 + 1e-6).floor() as u64
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn eight_frames_in_each_hundred_steps() {
-        let steps: Vec<u64> = (0..200).filter(|s| due(*s, 1e-4, 1.25e-3)).collect();
-        assert_eq!(steps[..8], [0, 13, 25, 38, 50, 63, 75, 88]);
-        assert_eq!(steps[8..], [100, 113, 125, 138, 150, 163, 175, 188]);
-        assert_eq!((0..=100_000).filter(|s| due(*s, 1e-4, 0.1)).count(), 101);
-        assert_eq!((0..10).filter(|s| due(*s, 1e-4, 1e-5)).count(), 10);
-    }
-
-    #[test]
-    fn the_next_one_is_the_first_that_is_due() {
-        for interval in [1.25e-3, 1e-4, 3.7e-5, 1e-20, 0.02, 1.0 / 3.0] {
-            let mut next = next_due(0, 1e-4, interval);
-            for step in 1..20_000 {
-                // Of intervals shorter than a step, turns between two steps are passed over.
-                if due(step, 1e-4, interval) {
-                    assert_eq!(step, next, "{interval}");
-                    next = next_due(step, 1e-4, interval);
-                }
-            }
-        }
-    }
 }

@@ -26,6 +26,7 @@ use kernels::CubicSpline;
 use neighbours::{Grid, Lists, ROWS};
 use particles::{Column, Matter, POSITION};
 use rayon::prelude::*;
+use steps::Figure;
 
 use self::band::Band;
 use self::depth::Depth;
@@ -33,7 +34,7 @@ use self::flat::Flat;
 use crate::faces::Images;
 use crate::near::Role;
 use crate::patch::{self, AREA, Patch, Patches};
-use crate::stage::{Figure, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::{PHASE, State, phase};
 use crate::vector::{minus, plus, squared};
 

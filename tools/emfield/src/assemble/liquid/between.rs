@@ -2,6 +2,7 @@
 
 use run::property::Arguments;
 use run::{Estimate, Failure, Fault, Plan};
+use steps::Legs;
 
 use crate::assemble::liquid::matter::{PASSED, RIPPLE, few, lacks, matter, way};
 use crate::liquid::effort::Effort;
@@ -9,8 +10,6 @@ use crate::liquid::fill::Filled;
 use crate::liquid::room::{Room, furnish};
 use crate::liquid::step::{Liquid, Matter, Step};
 use crate::liquid::vector::{length, spatial};
-use crate::march::steps::Steps;
-use crate::scene::currents::Transient;
 use crate::scene::{Faces, Liquid as Part, LiquidMarch, Scene};
 
 /// Bytes that a step holds for each point, about.
@@ -95,7 +94,7 @@ pub(crate) fn steps<const D: usize>(
     part: &Part,
     march: &LiquidMarch,
     liquid: &Liquid<D>,
-) -> Steps {
+) -> Legs {
     let spacing = scene.points.spacing_m;
     let matter: Matter<D> = matter(part);
     let mut step = march.end_s;
@@ -113,12 +112,8 @@ pub(crate) fn steps<const D: usize>(
     if fastest > 0.0 {
         step = step.min(PASSED * spacing / fastest);
     }
-    let transient = Transient {
-        end_s: march.end_s,
-        step_s: march.step_s.unwrap_or(step),
-        wave: None,
-    };
-    Steps::new(&transient, &scene.output)
+    let longest = march.step_s.unwrap_or(step);
+    Legs::new(longest, scene.output.instants(march.end_s))
 }
 
 /// What a run would do.

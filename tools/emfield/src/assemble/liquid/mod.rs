@@ -9,6 +9,7 @@ pub(crate) mod rest;
 use run::property::Arguments;
 use run::{Estimate, Failure, Fault, Plan};
 use shapes::Body;
+use steps::Legs;
 
 use self::alternating::alternating;
 use self::matter::{PASSED, RIPPLE, few, lacks, matter, way};
@@ -23,8 +24,6 @@ use crate::liquid::step::{Liquid, Matter, Step, Way};
 use crate::liquid::surface::patches;
 use crate::liquid::vector::length;
 use crate::march::liquid::acting::electric;
-use crate::march::steps::Steps;
-use crate::scene::currents::Transient;
 use crate::scene::{Liquid as Part, LiquidHeat, LiquidMarch, Scene};
 
 /// Bytes that a step holds for each point, about: weights, rows and factors.
@@ -115,13 +114,9 @@ pub(crate) fn fastest(liquid: &Liquid<3>) -> f64 {
     liquid.velocity.iter().map(length).fold(0.0, f64::max)
 }
 
-pub(crate) fn steps(scene: &Scene, part: &Part, march: &LiquidMarch, liquid: &Liquid<3>) -> Steps {
-    let transient = Transient {
-        end_s: march.end_s,
-        step_s: longest(scene, part, march, liquid),
-        wave: None,
-    };
-    Steps::new(&transient, &scene.output)
+pub(crate) fn steps(scene: &Scene, part: &Part, march: &LiquidMarch, liquid: &Liquid<3>) -> Legs {
+    let longest = longest(scene, part, march, liquid);
+    Legs::new(longest, scene.output.instants(march.end_s))
 }
 
 /// What a run would do.

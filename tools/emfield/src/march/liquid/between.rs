@@ -2,6 +2,7 @@
 
 use artefact::{Precision, Record};
 use run::{Failure, Session};
+use steps::Legs;
 
 use super::course::Course;
 use crate::assemble::liquid::between::{fastest, start, steps};
@@ -12,7 +13,6 @@ use crate::liquid::step::{Ended, Liquid, Matter, Step, Way};
 use crate::liquid::surface::Patch;
 use crate::liquid::told;
 use crate::liquid::vector::{along, dot};
-use crate::march::steps::Steps;
 use crate::scene::{Faces, Liquid as Part, LiquidMarch, Scene};
 
 /// Spacings that the liquid may pass in a step; longer ones are divided.
@@ -198,7 +198,7 @@ impl<const D: usize> March<D> {
         session.frame("/surface", time, &surface)
     }
 
-    fn close(&self, steps: &Steps, session: &mut Session) {
+    fn close(&self, steps: &Legs, session: &mut Session) {
         self.course
             .close(steps, if D == 2 { "m2" } else { "m3" }, session);
         if self.course.divided > 0 {

@@ -2,11 +2,11 @@
 
 use artefact::Checkpoint;
 use run::Session;
+use steps::Legs;
 
 use crate::liquid::effort::Effort;
 use crate::liquid::renew::Renewed;
 use crate::liquid::step::Liquid;
-use crate::march::steps::Steps;
 
 /// How far a march has come.
 #[derive(Debug, Clone, Default)]
@@ -106,7 +106,7 @@ impl Course {
     }
 
     /// Tells steps, solves and the volume, in its unit, at the end.
-    pub(super) fn close(&self, steps: &Steps, unit: &'static str, session: &mut Session) {
+    pub(super) fn close(&self, steps: &Legs, unit: &'static str, session: &mut Session) {
         session.steps(self.taken);
         session.closing("step", "s", steps.longest());
         session.closing("products", "1", self.effort.products as f64);

@@ -2,6 +2,7 @@
 
 use artefact::Precision;
 use run::{Failure, Session};
+use steps::Legs;
 
 use super::acting::Acting;
 use super::course::Course;
@@ -14,7 +15,6 @@ use crate::liquid::groups::{Groups, Parcel, Rule, Seen};
 use crate::liquid::step::{Ended, Liquid, Matter, Step, Way};
 use crate::liquid::told;
 use crate::liquid::vector::{along, length};
-use crate::march::steps::Steps;
 use crate::scene::{Groups as Given, Liquid as Part, LiquidMarch, Scene};
 
 /// Spacings that a point may move in a step; longer ones are divided.
@@ -321,7 +321,7 @@ fn moved(
 }
 
 impl March {
-    fn close(&self, steps: &Steps, session: &mut Session) {
+    fn close(&self, steps: &Legs, session: &mut Session) {
         self.course.close(steps, "m3", session);
         self.course.tell_momentum(session);
         self.acting.close(&self.course.effort, session);

@@ -10,6 +10,7 @@ mod stored;
 
 use artefact::{Checkpoint, Precision};
 use run::{Failure, Session};
+use steps::Legs;
 
 use self::acting::Acting;
 use self::between::between;
@@ -27,7 +28,6 @@ use crate::liquid::step::{Ended, Liquid, Matter, Step, Way};
 use crate::liquid::surface::{Patch, patches};
 use crate::liquid::told::{self, Totals};
 use crate::liquid::vector::{along, difference, length};
-use crate::march::steps::Steps;
 use crate::scene::{Liquid as Part, LiquidMarch, Scene};
 
 /// Spacings that a point may move in a step; longer ones are divided.
@@ -372,7 +372,7 @@ impl March {
         Ok(())
     }
 
-    fn close(&self, liquid: &Liquid<3>, steps: &Steps, session: &mut Session) {
+    fn close(&self, liquid: &Liquid<3>, steps: &Legs, session: &mut Session) {
         self.course.close(steps, "m3", session);
         self.course.tell_momentum(session);
         self.acting.close(&self.course.effort, session);

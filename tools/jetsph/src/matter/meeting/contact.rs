@@ -15,11 +15,12 @@
 use neighbours::Grid;
 use particles::{POSITION, Rows, sweep};
 use shapes::Body;
+use steps::Limit;
 
 use super::balls::{Across, Ball, balls};
 use crate::matter::solid::elastic::REST;
 use crate::matter::solid::fracture::BROKEN;
-use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
+use crate::stage::{Course, Entry, Figure, Stage, StageError};
 use crate::state::{ACCELERATION, MASS, State, VELOCITY};
 
 /// Neighbours at rest are nearer than so many cells.
@@ -280,10 +281,10 @@ impl Stage for Contact {
             let swing = SWING * (mass / party.stiffness).sqrt();
             swing.min(WAY * party.spacing / speed)
         });
-        Some(Limit {
-            seconds: each.fold(f64::INFINITY, f64::min),
-            name: "contact",
-        })
+        Some(Limit::dividing(
+            "contact",
+            each.fold(f64::INFINITY, f64::min),
+        ))
     }
 
     fn act(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {

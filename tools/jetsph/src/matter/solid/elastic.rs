@@ -1,6 +1,7 @@
 //! The stage of an elastic solid.
 
 use particles::{Column, POSITION, Set, sweep};
+use steps::Limit;
 
 use super::body::Body;
 use super::breaking::Breaking;
@@ -14,7 +15,7 @@ use super::plastic::History;
 use super::stiffness::stiffness;
 use super::tensor::{Matrix, UNIT};
 use crate::matter::meeting::skin::DEFORMATION;
-use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
+use crate::stage::{Course, Entry, Figure, Stage, StageError};
 use crate::state::{ACCELERATION, MASS, State};
 
 /// Place at rest, along the axes of the lattice \[m\].
@@ -132,15 +133,13 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
     fn limit(&self, _: &State) -> Option<Limit> {
         let stiffer = sweep::greatest(self.stiffer.len(), |a| self.stiffer[a]);
         let stiffer = stiffer.map_or(1.0, |(_, most)| most.max(1.0));
-        Some(Limit {
-            seconds: if self.breaking.is_some() {
-                CRACKED
-            } else {
-                SAFETY
-            } * 2.0
-                / (self.fastest * (stiffer * self.raised).sqrt()),
-            name: "elastic_waves",
-        })
+        let part = if self.breaking.is_some() {
+            CRACKED
+        } else {
+            SAFETY
+        };
+        let seconds = part * 2.0 / (self.fastest * (stiffer * self.raised).sqrt());
+        Some(Limit::dividing("elastic_waves", seconds))
     }
 
     fn exchange(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {

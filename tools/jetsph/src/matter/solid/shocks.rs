@@ -10,12 +10,13 @@ use particles::{POSITION, Rows, Set, sweep};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use steps::Limit;
 
 use super::elastic::REST;
 use super::fracture::BROKEN;
 use crate::matter::four::{Lanes, Work, on_this_machine};
 use crate::matter::water::friction::{Artificial, ArtificialViscosity, Friction};
-use crate::stage::{Course, Entry, Limit, Stage, StageError};
+use crate::stage::{Course, Entry, Stage, StageError};
 use crate::state::{ACCELERATION, MASS, State, VELOCITY};
 
 /// Particles per unit of parallel work.
@@ -166,10 +167,10 @@ impl<K: Kernel, F: Friction + Send> Stage for Shocks<K, F> {
         let spread =
             (self.artificial.linear + 2.0 * self.artificial.quadratic * speed / h) / self.density;
         let axes = state.dimensions as f64 + 2.0;
-        Some(Limit {
-            seconds: PART * h * h * 2.0 * axes / spread,
-            name: "viscous",
-        })
+        Some(Limit::dividing(
+            "viscous",
+            PART * h * h * 2.0 * axes / spread,
+        ))
     }
 
     fn act(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {

@@ -13,12 +13,13 @@
 
 use kernels::Kernel;
 use particles::{Column, POSITION, Set, sweep};
+use steps::Limit;
 
 use super::elastic::{EQUIVALENT_STRAIN, STRESS};
 use super::tensor::{Matrix, eigenvectors, inner, trace};
 use crate::matter::meeting::faces::PULL;
 use crate::matter::water::near::{LISTED, Near};
-use crate::stage::{Entry, Limit, Stage, StageError};
+use crate::stage::{Entry, Stage, StageError};
 use crate::state::{ACCELERATION, DENSITY, DENSITY_RATE, MASS, State, VELOCITY};
 
 /// S \[Pa\].
@@ -173,10 +174,10 @@ impl<const D: usize, K: Kernel> Stage for Updated<D, K> {
             ..
         } = self.law;
         let sound = ((bulk + 4.0 / 3.0 * shear) / density).sqrt();
-        Some(Limit {
-            seconds: COURANT * 0.5 * self.kernel.support() / (sound + speed),
-            name: "elastic_waves",
-        })
+        Some(Limit::dividing(
+            "elastic_waves",
+            COURANT * 0.5 * self.kernel.support() / (sound + speed),
+        ))
     }
 
     fn flows(&self) -> bool {

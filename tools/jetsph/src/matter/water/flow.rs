@@ -3,6 +3,7 @@
 use kernels::Kernel;
 use particles::{Column, Set, sweep};
 use shapes::Body;
+use steps::Limit;
 
 use super::around::Around;
 use super::compression::Compression;
@@ -12,7 +13,7 @@ use super::near::LISTED;
 use super::pairs::Pairs;
 use super::tait::Tait;
 use super::walls::Walls;
-use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
+use crate::stage::{Course, Entry, Figure, Stage, StageError};
 use crate::state::{ACCELERATION, DENSITY, DENSITY_RATE, MASS, State, VELOCITY};
 
 /// p \[Pa\].
@@ -125,7 +126,7 @@ impl<const D: usize, K: Kernel> Stage for Flow<D, K> {
         ];
         let all = limits
             .into_iter()
-            .map(|(name, seconds)| Limit { seconds, name });
+            .map(|(name, seconds)| Limit::dividing(name, seconds));
         all.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
 

@@ -6,10 +6,11 @@
 
 use particles::{Column, POSITION, sweep};
 use run::property::{Arguments, Curve};
+use steps::Limit;
 
 use super::near::LISTED;
 use crate::matter::lattice::cross_section;
-use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
+use crate::stage::{Course, Entry, Figure, Stage, StageError};
 use crate::state::{ACCELERATION, DENSITY, DENSITY_RATE, MASS, State, VELOCITY};
 
 /// 1 + number of the nozzle that leads a particle; 0 for a free one.
@@ -273,10 +274,8 @@ impl Stage for Feed {
     fn limit(&self, _: &State) -> Option<Limit> {
         let shares = self.lanes.iter().map(|lane| lane.share);
         let fastest = shares.fold(0.0, f64::max) * self.nozzle.fastest;
-        (!self.nozzle.has_sound && fastest > 0.0).then(|| Limit {
-            seconds: LONGEST * self.nozzle.matter.1 / fastest,
-            name: "nozzle",
-        })
+        (!self.nozzle.has_sound && fastest > 0.0)
+            .then(|| Limit::dividing("nozzle", LONGEST * self.nozzle.matter.1 / fastest))
     }
 
     fn flows(&self) -> bool {

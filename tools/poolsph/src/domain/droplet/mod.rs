@@ -21,8 +21,9 @@ mod wire;
 use run::Fault;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use steps::Figure;
 
-use crate::stage::{Figure, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::{DROPLET, State};
 
 pub use wire::Wire;

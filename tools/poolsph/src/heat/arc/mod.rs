@@ -26,6 +26,7 @@ use std::sync::Arc as Shared;
 
 use particles::Matter;
 use run::Fault;
+use steps::{Figure, Limit};
 
 use super::bounds::outside;
 use super::caloric::Caloric;
@@ -36,7 +37,7 @@ use super::received::{self, FROM_ARC};
 use super::skin::Skin;
 use crate::patch;
 use crate::source::arcs::Burning;
-use crate::stage::{Figure, Limit, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 use parameters::ENERGIES;
@@ -272,7 +273,7 @@ impl Stage for Arc {
         patch::declare(&mut state.metal);
     }
 
-    fn dt_limit(&self, _state: &State) -> Option<Limit> {
+    fn limit(&self, _state: &State) -> Option<Limit> {
         let seconds = self.whole / (self.metal.spacing * self.metal.spacing);
         seconds
             .is_finite()
@@ -281,7 +282,7 @@ impl Stage for Arc {
 
     fn follows(&self, state: &State) -> f64 {
         let periods = self.arcs.iter().filter_map(|arc| arc.burning.period());
-        let limit = self.dt_limit(state).map(|limit| limit.seconds);
+        let limit = self.limit(state).map(|limit| limit.seconds);
         limit
             .into_iter()
             .chain(periods.map(|period| period / STEPS))
@@ -335,7 +336,7 @@ impl Stage for Arc {
 
     fn figures(&self) -> Vec<Figure> {
         let put = self.energies.iter().map(|(name, sum)| Figure {
-            name,
+            name: *name,
             unit: "J",
             value: sum.value(),
         });

@@ -137,7 +137,7 @@ fn other_parts_stay_as_the_table_has_them() {
 #[test]
 fn a_long_step_ends_at_the_balance_of_electrons_and_ions() {
     let mut arc = made(json!({"parts": [], "cathode": cathode()})).unwrap();
-    let limit = arc.dt_limit(&plate(500.0)).unwrap();
+    let limit = arc.limit(&plate(500.0)).unwrap();
     assert_eq!(limit.name, "arc_feedback");
     let mut state = plate(500.0);
     put(&mut arc, &mut state, 300.0 * limit.seconds);
@@ -177,7 +177,7 @@ fn a_long_step_ends_at_the_balance_of_electrons_and_ions() {
 #[test]
 fn fluxes_that_know_no_temperature_bound_no_step() {
     for scene in [json!({}), json!({"flux_w_m2": 1e6})] {
-        assert!(made(scene).unwrap().dt_limit(&plate(500.0)).is_none());
+        assert!(made(scene).unwrap().limit(&plate(500.0)).is_none());
     }
 }
 
@@ -229,7 +229,7 @@ fn arcs_of_half_a_level_heat_as_one_does() {
         assert!((found / exact - 1.0).abs() < 1e-9, "{name} {found} {exact}");
     }
     // The bound of the step is that of both.
-    let limit = |arc: Arc| arc.dt_limit(&plate(500.0)).unwrap().seconds;
+    let limit = |arc: Arc| arc.limit(&plate(500.0)).unwrap().seconds;
     let full = json!([{}, {}]);
     let scene = json!({"cathode": cathode()});
     let ratio = limit(several(full, scene.clone())) / limit(made(scene).unwrap());

@@ -32,6 +32,7 @@ use particles::{Matter, POSITION};
 use rayon::prelude::*;
 use run::Fault;
 use run::property::Curve;
+use steps::{Figure, Limit};
 
 use crate::heat::bounds::{moments, outside};
 use crate::heat::caloric::Caloric;
@@ -40,7 +41,7 @@ use crate::heat::ledger::Sum;
 use crate::heat::open::Open;
 use crate::heat::parameters::Parameters;
 use crate::rest::{Plane, Rest};
-use crate::stage::{Figure, Limit, Stage, StageError};
+use crate::stage::{Stage, StageError};
 use crate::state::{ENTHALPY, State, TEMPERATURE, WALL, marked};
 
 /// Crowding of a liquid over the lattice that the step limit allows for.
@@ -304,7 +305,7 @@ impl Stage for Conduction {
         state.metal.declare(&ENTHALPY);
     }
 
-    fn dt_limit(&self, _state: &State) -> Option<Limit> {
+    fn limit(&self, _state: &State) -> Option<Limit> {
         Some(Limit::dividing("conduction", self.limit))
     }
 

@@ -32,6 +32,7 @@ mod slopes;
 use kernels::Kernel;
 use particles::{Column, POSITION, sweep};
 use shapes::Body;
+use steps::Limit;
 
 use self::bodies::Bodies;
 use self::filled::Filled;
@@ -41,7 +42,7 @@ use super::around::Around;
 use super::near::LISTED;
 use super::nozzle::LED;
 use super::walls::Walls;
-use crate::stage::{Course, Entry, Figure, Limit, Stage, StageError};
+use crate::stage::{Course, Entry, Figure, Stage, StageError};
 use crate::state::{ACCELERATION, MASS, State, VELOCITY};
 
 /// p \[Pa\]: the next solution begins with it.
@@ -252,7 +253,7 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
         ];
         let all = limits
             .into_iter()
-            .map(|(name, seconds)| Limit { seconds, name });
+            .map(|(name, seconds)| Limit::dividing(name, seconds));
         let least = all.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
         least.filter(|limit| limit.seconds.is_finite())
     }

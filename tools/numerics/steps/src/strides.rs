@@ -1,12 +1,10 @@
-//! How long steps are.
-//!
-//! Steps hold 1, 2, 4, 8 ... steps of the scene's length, so that all that is due at multiples of that keeps its time, and
+//! Steps that hold 1, 2, 4, 8 ... steps of one length, so that all that is due at multiples of that keeps its time, and
 //! times are no sums.
 
-/// How long steps are.
+/// How many steps of one length a step holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pace {
-    /// The scene's step \[s\].
+pub struct Strides {
+    /// That length \[s\].
     base: f64,
     /// Most of them that one step holds, a power of two.
     pub greatest: u64,
@@ -16,7 +14,7 @@ pub struct Pace {
     pub taken: u64,
 }
 
-impl Pace {
+impl Strides {
     /// Steps of one length \[s\].
     #[must_use]
     pub fn even(base: f64) -> Self {
@@ -40,7 +38,7 @@ impl Pace {
         self.stride as f64 * self.base
     }
 
-    /// Chooses the step from number `step` on: not beyond number `until` nor, by more than one of the scene's, the instant `mark` \[s\],
+    /// Chooses the step from number `step` on: not beyond number `until` nor, by more than one of that length, the instant `mark` \[s\],
     /// no longer than `longest` \[s\], and at most twice the last one.
     pub fn choose(&mut self, step: u64, until: u64, mark: f64, longest: f64) {
         // The end of the first step that does not lie before the mark.
@@ -63,17 +61,17 @@ mod tests {
 
     #[test]
     fn steps_grow_and_meet_their_marks() {
-        let mut pace = Pace {
+        let mut strides = Strides {
             greatest: 8,
-            ..Pace::even(1e-4)
+            ..Strides::even(1e-4)
         };
         let (mut step, mut taken) = (0, Vec::new());
         while step < 60 {
             let mark = if step < 21 { 2.05e-3 } else { f64::INFINITY };
             let longest = if step < 40 { 1.0 } else { 3.9e-4 };
-            pace.choose(step, 60, mark, longest);
-            step += pace.stride;
-            taken.push(pace.stride);
+            strides.choose(step, 60, mark, longest);
+            step += strides.stride;
+            taken.push(strides.stride);
         }
         assert_eq!(
             taken,
@@ -84,8 +82,8 @@ mod tests {
 
     #[test]
     fn steps_that_are_all_alike_stay_so() {
-        let mut pace = Pace::even(1e-4);
-        pace.choose(3, 100, f64::INFINITY, 1.0);
-        assert_eq!((pace.stride, pace.grows()), (1, false));
+        let mut strides = Strides::even(1e-4);
+        strides.choose(3, 100, f64::INFINITY, 1.0);
+        assert_eq!((strides.stride, strides.grows()), (1, false));
     }
 }
