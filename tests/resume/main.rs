@@ -34,6 +34,8 @@ enum Scene {
     Rod,
     /// Eddy currents in a ball, in steps of several lengths.
     Field,
+    /// The same in steps that follow their error.
+    Growing,
     /// The same in space, with charges on the ball.
     Charges,
     /// A drop of liquid that swings and falls.
@@ -44,13 +46,14 @@ enum Scene {
     Drops,
 }
 
-const SCENES: [Scene; 10] = [
+const SCENES: [Scene; 11] = [
     Scene::Drop,
     Scene::Cold,
     Scene::Weld,
     Scene::Heat,
     Scene::Rod,
     Scene::Field,
+    Scene::Growing,
     Scene::Charges,
     Scene::Liquid,
     Scene::Basin,
@@ -66,6 +69,7 @@ impl Scene {
             Self::Heat => "heat.json",
             Self::Rod => "rod.json",
             Self::Field => "field.json",
+            Self::Growing => "growing.json",
             Self::Charges => "charges.json",
             Self::Liquid => "liquid.json",
             Self::Basin => "basin.json",
@@ -80,7 +84,12 @@ impl Scene {
         match self {
             Self::Drop | Self::Cold | Self::Weld => "poolsph",
             Self::Heat | Self::Rod => "heatsph",
-            Self::Field | Self::Charges | Self::Liquid | Self::Basin | Self::Drops => "emfield",
+            Self::Field
+            | Self::Growing
+            | Self::Charges
+            | Self::Liquid
+            | Self::Basin
+            | Self::Drops => "emfield",
         }
     }
 
@@ -134,7 +143,7 @@ impl Scene {
             match self {
                 Self::Drop | Self::Cold | Self::Weld => happens::happens(&reader),
                 Self::Heat | Self::Rod => happens::warms(&reader),
-                Self::Field | Self::Charges => happens::enters(&reader),
+                Self::Field | Self::Growing | Self::Charges => happens::enters(&reader),
                 Self::Liquid => happens::swings(&reader),
                 Self::Basin => happens::sloshes(&reader),
                 Self::Drops => happens::meet(&reader),

@@ -25,16 +25,31 @@ impl Case for EmTransientCylinder {
         "Bessel series, Carslaw and Jaeger (1959), section 7.6"
     }
 
+    fn methods(&self) -> &'static [&'static str] {
+        &["default", "adaptive"]
+    }
+
     fn targets(&self) -> Vec<Target> {
         vec![
             Target::error("field_linf", 2e-3),
             Target::order("field_linf", 1.95),
+            Target::error("field_linf", 1e-4).of("adaptive"),
+            Target::order("field_linf", 1.9).of("adaptive"),
         ]
     }
 
     fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
-        let step = 0.004 / f64::from(1 << (level.clamp(1, 6) - 1));
-        let patch = json!({"eddy_currents": {"transient": {"step_s": step}}});
+        let finer = f64::from(1 << (level.clamp(1, 6) - 1));
+        let (step, transient) = if method == "adaptive" {
+            // The error of a step falls with its third power.
+            let tolerance = 1e-3 / finer.powi(3);
+            let adaptive = json!({"tolerance": tolerance});
+            (1e-5, json!({"step_s": 1e-5, "adaptive": adaptive}))
+        } else {
+            let step = 0.004 / finer;
+            (step, json!({"step_s": step}))
+        };
+        let patch = json!({"eddy_currents": {"transient": transient}});
         let label = format!("level{level}-{method}");
         let run = lab.run(self.tool(), self.name(), &label, &patch)?;
         let exact = Step {
@@ -53,6 +68,11 @@ impl Case for EmTransientCylinder {
         }
         let errors = Errors::from([("field_linf".to_owned(), linf)]);
         // The order is that in time: the step takes the place of the spacing.
+        let step = if method == "adaptive" {
+            run.closing("step_mean")
+        } else {
+            step
+        };
         Ok(Measurement::of(run, points.count(), step, errors))
     }
 }

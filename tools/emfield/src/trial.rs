@@ -11,6 +11,7 @@ use run::{Estimate, Failure, Taken, duration, trial};
 
 use crate::assemble;
 use crate::cloud::{Cloud, setup};
+use crate::scene::currents::Transient;
 use crate::scene::method::Way;
 use crate::scene::{Geometry, Scene};
 
@@ -88,6 +89,7 @@ pub(crate) fn estimate(scene: &Scene, planned: &Planned) -> Result<Estimate, Fai
         way: scene.solver.way,
         space: scene.geometry == Geometry::Space,
         steps: steps as f64 / taken_steps.max(1) as f64,
+        grows: transient(scene).is_some_and(|t| t.adaptive.is_some()),
         frames: frames as f64 / taken_frames as f64,
         judged: assemble::far::judged(scene),
     };
@@ -159,11 +161,14 @@ fn shortened(scene: &Scene) -> Scene {
     short
 }
 
+fn transient(scene: &Scene) -> Option<&Transient> {
+    let march = scene.eddy_currents.as_ref();
+    march.and_then(|e| e.transient.as_ref())
+}
+
 /// Steps and frames of the march of a scene; no step and one frame where there is none.
 fn march(scene: &Scene) -> (u64, u64) {
-    let march = scene.eddy_currents.as_ref();
-    let transient = march.and_then(|e| e.transient.as_ref());
-    transient.map_or((0, 1), |transient| {
+    transient(scene).map_or((0, 1), |transient| {
         let steps = transient.steps(&scene.output);
         (steps.count(), 1 + steps.instants())
     })
@@ -176,6 +181,8 @@ struct More {
     way: Way,
     space: bool,
     steps: f64,
+    /// Whether steps grow, so that it has fewer.
+    grows: bool,
     frames: f64,
     /// Whether its far field is judged, as that of a trial with larger spacings may be.
     judged: bool,
@@ -237,7 +244,8 @@ fn told(taken: &Taken, more: &More, planned: &Planned, few: usize, steps: u64) -
         .map(|(name, stage)| format!("{name} {}", duration(seconds(stage))))
         .collect();
     let march = if steps > 0 {
-        format!(" and {} of {steps} steps", steps.min(STEPS))
+        let most = if more.grows { " at most" } else { "" };
+        format!(" and {} of {steps} steps{most}", steps.min(STEPS))
     } else {
         String::new()
     };

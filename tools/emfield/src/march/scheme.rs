@@ -154,6 +154,16 @@ impl<'a> March<'a> {
         &self.state
     }
 
+    /// Takes the rates at the end of the last step from elsewhere.
+    pub fn set_rates(&mut self, change: Vec<f64>) {
+        self.state.change = change;
+    }
+
+    /// Takes back a step.
+    pub fn set_back(&mut self, before: &State) {
+        self.state.clone_from(before);
+    }
+
     /// What media whose permeability depends on the field took, where there are such.
     #[must_use]
     pub fn settled(&self) -> Option<Settled> {

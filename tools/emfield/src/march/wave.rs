@@ -19,13 +19,31 @@ const FEW: f64 = 0.1;
 const PARTS: usize = 64;
 
 /// The wave.
-pub(crate) struct Wave(Curve);
+pub(crate) struct Wave {
+    curve: Curve,
+    /// Greatest size of it at starts and middles of steps.
+    greatest: f64,
+}
 
 impl Wave {
-    pub(crate) fn new(transient: &Transient) -> Result<Self, Failure> {
+    pub(crate) fn new(transient: &Transient, steps: &Legs) -> Result<Self, Failure> {
         let on = Property::Constant(1.0);
         let wave = transient.wave.as_ref().unwrap_or(&on);
-        Ok(Self(wave.compile("/eddy_currents/transient/wave", &["t"])?))
+        let mut wave = Self {
+            curve: wave.compile("/eddy_currents/transient/wave", &["t"])?,
+            greatest: 0.0,
+        };
+        let count = if wave.curve.depends_on("t") {
+            steps.count()
+        } else {
+            0
+        };
+        for step in 0..count {
+            let (from, length) = steps.step(step);
+            let seen = [wave.at(from)?, wave.at(from + 0.5 * length)?];
+            wave.greatest = seen.iter().fold(wave.greatest, |most, w| most.max(w.abs()));
+        }
+        Ok(wave)
     }
 
     /// Whether it has one value at start, middle and end of a step.
@@ -36,14 +54,23 @@ impl Wave {
     }
 
     pub(crate) fn at(&self, time: f64) -> Result<f64, Failure> {
-        let value = self.0.value(&Arguments::at([0.0; 3], time));
+        let value = self.curve.value(&Arguments::at([0.0; 3], time));
         value.map_err(|error| Failure::Other(format!("wave at {time:.6e} s: {error}")))
+    }
+
+    /// Whether a step of `length` \[s\] from an instant \[s\] on sees its peaks and meets no bend.
+    pub(crate) fn follows(&self, from: f64, length: f64) -> Result<bool, Failure> {
+        if !self.curve.depends_on("t") {
+            return Ok(true);
+        }
+        let Strayed { beyond, line } = self.strays(from, length)?;
+        Ok(beyond.max(line) <= BENT * self.greatest)
     }
 
     /// How long it takes to change by its greatest value, in the mean over all steps from rest on \[s\]: 1/omega of a sine.
     pub(crate) fn lasts(&self, steps: &Legs) -> Result<f64, Failure> {
         let (mut before, mut most, mut way) = (0.0, 0.0_f64, 0.0);
-        let count = if self.0.depends_on("t") {
+        let count = if self.curve.depends_on("t") {
             steps.count()
         } else {
             0
@@ -65,16 +92,10 @@ impl Wave {
 
     /// What to tell where steps do not follow it.
     pub(crate) fn doubt(&self, steps: &Legs) -> Result<Option<String>, Failure> {
-        if !self.0.depends_on("t") {
+        if !self.curve.depends_on("t") {
             return Ok(None);
         }
-        let mut most = 0.0_f64;
-        for step in 0..steps.count() {
-            let (from, length) = steps.step(step);
-            most = most
-                .max(self.at(from)?.abs())
-                .max(self.at(from + 0.5 * length)?.abs());
-        }
+        let most = self.greatest;
         let (mut unseen, mut bent, mut worst) = (0_u64, 0_u64, (0.0, 0.0));
         for step in 0..steps.count() {
             let (from, length) = steps.step(step);
@@ -112,7 +133,7 @@ impl Wave {
         for part in 0..PARTS {
             let [a, b] = [part, part + 1].map(|k| k as f64 / PARTS as f64);
             let [before, after] = [a, b].map(|part| Arguments::at([0.0; 3], from + part * length));
-            let bounds = self.0.bounds(&before, &after);
+            let bounds = self.curve.bounds(&before, &after);
             let found = if bounds.width().is_finite() {
                 [bounds.low, bounds.high]
             } else {
@@ -147,9 +168,10 @@ mod tests {
             end_s: 1.0,
             step_s,
             wave: serde_json::from_str(&format!(r#"{{"expr": "{wave}"}}"#)).unwrap(),
+            adaptive: None,
         };
         let steps = transient.steps(&Output::default());
-        (Wave::new(&transient).unwrap(), steps)
+        (Wave::new(&transient, &steps).unwrap(), steps)
     }
 
     fn doubt(wave: &str, step_s: f64) -> Option<String> {

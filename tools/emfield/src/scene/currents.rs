@@ -46,6 +46,27 @@ pub struct Transient {
     /// start.
     #[schemars(extend("x-unit" = "1"))]
     pub wave: Option<Property>,
+    /// Steps that grow where their error allows; absent: all steps have one length.
+    pub adaptive: Option<Adaptive>,
+}
+
+/// Steps of 1, 2, 4, 8 ... times `step_s`, as long as their error and what drives the currents allow. Frames keep their times. A step
+/// of `step_s` itself always stands.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Adaptive {
+    /// Estimated error of the vector potential that a step may make, over its greatest value so far; 1e-4 when it is absent. Both are
+    /// means over what conducts.
+    #[serde(default = "tolerance")]
+    #[schemars(range(max = 0.1), extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
+    pub tolerance: f64,
+    /// Longest step to which they may grow; absent: up to the next frame.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
+    pub greatest_s: Option<f64>,
+}
+
+fn tolerance() -> f64 {
+    1e-4
 }
 
 impl Transient {

@@ -78,6 +78,13 @@ impl Legs {
         }
     }
 
+    /// Steps after so many until the next instant.
+    #[must_use]
+    pub fn left(&self, taken: u64) -> u64 {
+        let leg = self.leg(taken);
+        leg.before + leg.count - taken
+    }
+
     /// The longest step \[s\].
     #[must_use]
     pub fn longest(&self) -> f64 {
@@ -98,6 +105,7 @@ mod tests {
         assert!(lengths.iter().all(|l| *l == lengths[0]));
         let met: Vec<u64> = (1..=10).filter(|n| all.end(*n).1).collect();
         assert_eq!(met, [3, 6, 9, 10]);
+        assert_eq!([all.left(0), all.left(4), all.left(9)], [3, 2, 1]);
         assert_eq!(all.end(10).0, 1.0);
     }
 
