@@ -156,8 +156,9 @@ deb: programs ## make a package for Debian: build/deb/fusionline_VERSION_ARCHITE
 	@dpkg-deb -Zxz -z0 --root-owner-group --build build/deb/root $(DEB) >/dev/null
 	@echo "made: $(DEB)"
 
-schemas: programs ## write schemas/*.scene.v1.json from the programs
-	@for tool in gasprop arcfvm poolsph heatsph emfield jetsph avg; do $(BIN)/$$tool schema > schemas/$$tool.scene.v1.json; done
+SCENES := gasprop.scene.v1 arcfvm.scene.v1 poolsph.scene.v2 heatsph.scene.v1 emfield.scene.v1 jetsph.scene.v1 avg.scene.v1
+schemas: programs ## write schemas/*.scene.v*.json from the programs
+	@for scene in $(SCENES); do $(BIN)/$${scene%%.*} schema > schemas/$$scene.json; done
 	@$(BIN)/sweep schema > schemas/sweep.v1.json
 	@cargo run --release --quiet -p run --example sheet > schemas/substance.v1.json
 

@@ -68,7 +68,7 @@ fn must_be_quiet(name: &str, size: usize, spent: (f64, f64)) {
 fn pool_step(name: &str, scene: &Value, inputs: &Inputs) {
     let expected = Expected {
         kind: "poolsph.scene",
-        version: 1,
+        version: 2,
         migrations: &[],
     };
     let scene = parse::<poolsph::scene::Scene>(&scene.to_string(), expected);
@@ -107,7 +107,7 @@ fn tank(edge: u32) -> Value {
     let hollow =
         json!({"min_m": [0, 0, 0], "max_m": [length, length, 1.5 * length], "thickness_m": 1e-3});
     json!({
-        "kind": "poolsph.scene", "version": 1, "spacing_m": 5e-4,
+        "kind": "poolsph.scene", "version": 2, "spacing_m": 5e-4,
         "time": {"step_s": 1e-4, "end_s": 1.0}, "density_kg_m3": 7850,
         "bodies": [
             {"shape": {"container": hollow}, "state": "wall"},
@@ -134,7 +134,7 @@ fn weld(edge: u32) -> Value {
     let mut scene: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let half = 2.5e-4 * f64::from(edge);
     let (low, high) = (json!([-half, -half, -half]), json!([half, half, 0]));
-    let pool = json!({"ellipsoid": {"centre_m": [0, 0, 0], "half_m": [0.6 * half, 0.6 * half, 0.5 * half]}});
+    let pool = json!({"ellipsoid": {"centre_m": [0, 0, 0], "semi_axes_m": [0.6 * half, 0.6 * half, 0.5 * half]}});
     let above = json!([{"point_m": [0, 0, 0], "normal": [0, 0, 1]}]);
     scene["bodies"] = json!([
         {"shape": pool, "cuts": above, "lattice_m": low, "state": "liquid", "temperature_k": 1900},

@@ -201,7 +201,7 @@ fn every_stage_refuses_what_no_scene_may_say() {
             ),
             (
                 "version",
-                "{\"version\": 2}",
+                "{\"version\": 9}",
                 vec!["version.json:1:", "/version"],
             ),
             (
@@ -309,7 +309,7 @@ fn a_shape_that_fits_no_form_is_told_its_keys_and_the_nearest_form() {
             r#"{"min_m": [0, 0, 0], "max_m": [1, 1, 1]}"#,
             vec![
                 "fits none of",
-                "it has 'min_m', 'max_m'; nearest is {\"box\": {\"min_m\", \"max_m\"",
+                "it has 'min_m', 'max_m'; nearest is {\"box\": {\"name\", \"min_m\", \"max_m\"",
             ],
         ),
         (r#"{}"#, vec!["fits none of", "it has no key"]),

@@ -89,7 +89,7 @@ fn shapes_without_an_inside() {
         &["/bodies/0/shape/sphere/radius_m", "above 0 m"],
     );
     let flat = |half: Value| {
-        let shape = json!({"ellipsoid": {"centre_m": [0, 0, 0], "half_m": half}});
+        let shape = json!({"ellipsoid": {"centre_m": [0, 0, 0], "semi_axes_m": half}});
         json!({"bodies": [{"shape": shape, "state": "liquid"}]})
     };
     for half in [json!([0.01, 0, 0.01]), json!([0.01, -0.01, 0.01])] {

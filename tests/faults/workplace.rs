@@ -134,7 +134,7 @@ pub(crate) fn header() -> Header {
         version: Version::new(1, 0),
         tool: "poolsph".to_owned(),
         tool_version: "0.1.0".to_owned(),
-        scene: serde_json::json!({"kind": "poolsph.scene", "version": 1}),
+        scene: serde_json::json!({"kind": "poolsph.scene", "version": 2}),
         inputs: Default::default(),
     }
 }

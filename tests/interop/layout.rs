@@ -9,7 +9,7 @@ use crate::{program, root};
 
 /// A plate that an arc melts, in a few steps.
 const WELD: &str = r#"{
-    "kind": "poolsph.scene", "version": 1, "title": "Spot", "spacing_m": 5e-4,
+    "kind": "poolsph.scene", "version": 2, "title": "Spot", "spacing_m": 5e-4,
     "time": {"step_s": 1e-4, "end_s": 0.004}, "density_kg_m3": 7850,
     "bodies": [{"shape": {"box": {"min_m": [-2e-3, -2e-3, -1e-3], "max_m": [2e-3, 2e-3, 0]}}, "state": "solid",
         "temperature_k": 1700}],

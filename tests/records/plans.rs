@@ -31,7 +31,7 @@ fn told_and_taken(tool: &str, scene: &Value, folder: &Path) -> [f64; 2] {
 }
 
 fn metal(method: &str, smoothing: f64) -> Value {
-    json!({"kind": "poolsph.scene", "version": 1, "spacing_m": 1e-3, "smoothing_length_m": smoothing * 1e-3,
+    json!({"kind": "poolsph.scene", "version": 2, "spacing_m": 1e-3, "smoothing_length_m": smoothing * 1e-3,
         "density_kg_m3": 7850, "time": {"step_s": 1e-4, "end_s": 2e-4},
         "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [0.04, 0.04, 0.03]}}, "state": "liquid"}],
         "flow": {"method": method, "viscosity_pa_s": 0.005},
@@ -39,7 +39,7 @@ fn metal(method: &str, smoothing: f64) -> Value {
 }
 
 fn plate() -> Value {
-    json!({"kind": "poolsph.scene", "version": 1, "spacing_m": 1e-3, "density_kg_m3": 7850,
+    json!({"kind": "poolsph.scene", "version": 2, "spacing_m": 1e-3, "density_kg_m3": 7850,
         "time": {"step_s": 1e-3, "end_s": 2e-3},
         "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [0.05, 0.05, 0.03]}}, "state": "solid", "temperature_k": 300}],
         "heat": {"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 700},

@@ -123,6 +123,16 @@ const RECIPES: [Recipe; 7] = [
     ),
 ];
 
+/// Versions of scenes that there may be.
+const VERSIONS: u32 = 9;
+
+/// The schema of the newest scenes of a tool.
+fn newest(root: &Path, tool: &str) -> PathBuf {
+    let of = |version: u32| root.join(format!("schemas/{tool}.scene.v{version}.json"));
+    let newest = (1..=VERSIONS).rev().map(of).find(|path| path.exists());
+    newest.unwrap_or_else(|| of(1))
+}
+
 impl Seeds {
     pub(crate) fn make(campaign: &Campaign) -> Result<Self, String> {
         let folder = campaign.out.join("seeds");
@@ -141,9 +151,7 @@ impl Seeds {
         let mut schemas = BTreeMap::new();
         for scene in &scenes {
             if !schemas.contains_key(&scene.tool) {
-                let path = campaign
-                    .root
-                    .join(format!("schemas/{}.scene.v1.json", scene.tool));
+                let path = newest(&campaign.root, &scene.tool);
                 let text = std::fs::read_to_string(&path)
                     .map_err(|e| format!("{}: {e}", path.display()))?;
                 schemas.insert(scene.tool.clone(), Schema::parse(&text)?);

@@ -74,7 +74,7 @@ impl Case for FlowDrop {
             "spacing_m": radius / (5.0 + 2.0 * f64::from(level)),
             "time": {"step_s": period / 600.0, "end_s": 4.0 * period},
             "bodies": [{
-                "shape": {"ellipsoid": {"centre_m": [0, 0, 0], "half_m": [across, across, radius * long]}},
+                "shape": {"ellipsoid": {"centre_m": [0, 0, 0], "semi_axes_m": [across, across, radius * long]}},
                 "state": "liquid"
             }],
             "flow": {"viscosity_pa_s": ohnesorge * (density * tension * radius).sqrt()},

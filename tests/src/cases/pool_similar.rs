@@ -62,7 +62,7 @@ fn drop(lab: &Lab, case: &str, level: u32, size: f64, label: &str) -> Result<Fin
         "spacing_m": radius / (5.0 + 2.0 * f64::from(level)),
         "time": {"step_s": period / 600.0, "end_s": period / 3.0},
         "bodies": [{
-            "shape": {"ellipsoid": {"centre_m": [0, 0, 0], "half_m": [0.95 * radius, 0.95 * radius, 1.1 * radius]}},
+            "shape": {"ellipsoid": {"centre_m": [0, 0, 0], "semi_axes_m": [0.95 * radius, 0.95 * radius, 1.1 * radius]}},
             "state": "liquid"
         }],
         "flow": {"viscosity_pa_s": 0.02 * (density * tension * radius).sqrt()},

@@ -1,10 +1,10 @@
 //! What the command line needs to know of this tool.
 
-use run::{Estimate, Failure, Input, Inputs, Plan, Preview, Session, Tool};
+use run::{Estimate, Failure, Input, Inputs, Migration, Plan, Preview, Session, Tool};
 
 use crate::assemble::preview::preview;
 use crate::assemble::{Assembled, assemble};
-use crate::scene::{KIND, Scene};
+use crate::scene::{KIND, MIGRATIONS, Scene};
 use crate::{plan, simulate, trial};
 
 /// The program `poolsph`.
@@ -19,6 +19,7 @@ impl Tool for PoolSph {
          poolsph run pipelines/verify/pool-hydrostatic/scene.json --out build/tank.mcap";
     const SCENE_KIND: &'static str = KIND.0;
     const SCENE_VERSION: u32 = KIND.1;
+    const MIGRATIONS: &'static [Migration] = MIGRATIONS;
     const ARTEFACT_KIND: &'static str = "particle-frames";
     const INPUTS: &'static [Input] = &[
         Input {

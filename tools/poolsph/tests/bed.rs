@@ -24,7 +24,7 @@ fn said(output: &Output) -> String {
 /// Five layers of grains on a plate, in a box, that lean on one side of it.
 fn bed() -> Value {
     json!({
-        "kind": "poolsph.scene", "version": 1, "title": "A bed that leans", "spacing_m": 5e-4,
+        "kind": "poolsph.scene", "version": 2, "title": "A bed that leans", "spacing_m": 5e-4,
         "time": {"step_s": 1e-4, "end_s": 1.0}, "density_kg_m3": 7750,
         "bodies": [{"shape": {"box": {"min_m": [0, 0, -1e-3], "max_m": [6e-3, 4e-3, 0]}}, "state": "solid"}],
         "grains": {

@@ -53,7 +53,7 @@ fn last_of(artefact: &Path, history: &str) -> f64 {
 /// Grains that lie on a plate.
 fn resting() -> Value {
     json!({
-        "kind": "poolsph.scene", "version": 1, "title": "Grains on a plate",
+        "kind": "poolsph.scene", "version": 2, "title": "Grains on a plate",
         "spacing_m": 5e-4, "time": {"step_s": 1e-4, "end_s": 0.3}, "density_kg_m3": 7750,
         "bodies": [{"shape": {"box": {"min_m": [0, 0, -1e-3], "max_m": [4e-3, 4e-3, 0]}}, "state": "solid"}],
         "grains": {

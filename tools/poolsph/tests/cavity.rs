@@ -27,7 +27,7 @@ fn ends(artefact: &Path, channel: &str) -> [Record; 2] {
 fn cavity() -> Value {
     let ball = json!({"sphere": {"centre_m": [0, 0, 0], "radius_m": 3e-3}});
     json!({
-        "kind": "poolsph.scene", "version": 1, "title": "Light in a cavity",
+        "kind": "poolsph.scene", "version": 2, "title": "Light in a cavity",
         "time": {"step_s": 1e-4, "end_s": 0.05},
         "grains": {
             "density_kg_m3": 3230,
@@ -134,7 +134,7 @@ fn metal_under_grains_gets_nothing_of_the_arc() {
     let out = folder.path().join("cover.mcap");
     let taken = |covered: f64| {
         let mut scene = json!({
-            "kind": "poolsph.scene", "version": 1, "title": "A plate half under grains",
+            "kind": "poolsph.scene", "version": 2, "title": "A plate half under grains",
             "spacing_m": 5e-4, "time": {"step_s": 1e-4, "end_s": 2e-3}, "density_kg_m3": 7750,
             "bodies": [{"shape": {"box": {"min_m": [0, 0, -1e-3], "max_m": [8e-3, 4e-3, 0]}}, "state": "solid", "temperature_k": 600}],
             "heat": {"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 700},

@@ -15,7 +15,7 @@ fn film(layers: f64, flow: &Value) -> Value {
     let liquid = json!({"box": {"min_m": [3e-3, 3e-3, 0], "max_m": [9e-3, 12e-3, layers * d]}});
     let plate = json!({"box": {"min_m": [0, 0, -3e-3], "max_m": [12e-3, 12e-3, 0]}});
     let mut scene = json!({
-        "kind": "poolsph.scene", "version": 1, "title": "A film on a cold plate", "spacing_m": d,
+        "kind": "poolsph.scene", "version": 2, "title": "A film on a cold plate", "spacing_m": d,
         "time": {"step_s": 1e-4, "end_s": 0.02}, "density_kg_m3": 7850,
         "bodies": [{"shape": plate, "state": "solid", "temperature_k": 300},
             {"shape": liquid, "state": "liquid", "temperature_k": 2100}],
@@ -92,7 +92,7 @@ fn what_lies_on_held_metal_flows_over_its_edge_and_sliding_liquid_goes_farther()
 /// A drop of five spacings of radius, set down on a cold plate without gravity.
 fn drop(sticks: &str) -> Value {
     json!({
-        "kind": "poolsph.scene", "version": 1, "title": "A drop on a cold plate", "spacing_m": 5e-4,
+        "kind": "poolsph.scene", "version": 2, "title": "A drop on a cold plate", "spacing_m": 5e-4,
         "time": {"step_s": 1e-4, "end_s": 0.03}, "density_kg_m3": 7850,
         "bodies": [{"shape": {"box": {"min_m": [-6e-3, -6e-3, -1.5e-3], "max_m": [6e-3, 6e-3, 0]}},
             "state": "solid", "temperature_k": 300},

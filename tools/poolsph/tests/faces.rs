@@ -12,7 +12,7 @@ fn taken(faces: &Value, method: &str) -> f64 {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let mut scene = json!({
-        "kind": "poolsph.scene", "version": 1, "title": "A tank under an even flux",
+        "kind": "poolsph.scene", "version": 2, "title": "A tank under an even flux",
         "spacing_m": 5e-4, "time": {"step_s": 2e-4, "end_s": 0.04}, "density_kg_m3": 7000,
         "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [8e-3, 6e-3, 3e-3]}}, "state": "liquid", "temperature_k": 1900}],
         "faces": {"min_m": [0, 0, 0], "max_m": [8e-3, 6e-3, 2e-2]},

@@ -47,7 +47,7 @@ fn ends(folder: &Path, name: &str) -> [Frame; 2] {
 /// A slab of 4 x 3 x 1 grains that no symmetry helps: it flies and tumbles.
 fn tumbling() -> Value {
     json!({
-        "kind": "poolsph.scene", "version": 1, "title": "A slab that tumbles",
+        "kind": "poolsph.scene", "version": 2, "title": "A slab that tumbles",
         "time": {"step_s": 1e-4, "end_s": 0.05},
         "grains": {
             "density_kg_m3": 2500,

@@ -35,7 +35,7 @@ fn clouds() -> Value {
                "spacing_m": 2.3 * radius, "jitter": 0.05, "velocity_m_s": [u, 0.1, 0.0], "spin_rad_s": [0.0, 30.0, 200.0]})
     };
     json!({
-        "kind": "poolsph.scene", "version": 1, "title": "Two clouds",
+        "kind": "poolsph.scene", "version": 2, "title": "Two clouds",
         "time": {"step_s": 1e-4, "end_s": 0.02},
         "grains": {
             "density_kg_m3": 2500,

@@ -8,7 +8,7 @@ use std::process::Command;
 /// Points of metal that `check --points` shows for one body of spacing 0.5 mm.
 fn particles(folder: &Path, shape: &str) -> Result<usize, String> {
     let scene = format!(
-        r#"{{"kind": "poolsph.scene", "version": 1, "spacing_m": 0.0005, "density_kg_m3": 7850,
+        r#"{{"kind": "poolsph.scene", "version": 2, "spacing_m": 0.0005, "density_kg_m3": 7850,
             "time": {{"step_s": 1e-4, "end_s": 1e-3}},
             "bodies": [{{"shape": {shape}, "state": "solid", "temperature_k": 300}}],
             "heat": {{"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 600}},

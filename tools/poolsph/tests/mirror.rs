@@ -55,7 +55,7 @@ fn heap(law: &Value, sides: &[f64]) -> Value {
         })
     });
     json!({
-        "kind": "poolsph.scene", "version": 1, "title": "A heap and its image",
+        "kind": "poolsph.scene", "version": 2, "title": "A heap and its image",
         "time": {"step_s": 1e-4, "end_s": 0.01},
         "grains": {
             "density_kg_m3": 2500,
@@ -106,7 +106,7 @@ fn cavity(low: f64, power: f64, walls: &[Value]) -> Value {
     all.extend_from_slice(walls);
     let shell = json!({"difference": [{"box": {"min_m": [low, -5e-3, 0], "max_m": [5e-3, 5e-3, 5e-3]}}, ball]});
     json!({
-        "kind": "poolsph.scene", "version": 1, "title": "Light in a cavity",
+        "kind": "poolsph.scene", "version": 2, "title": "Light in a cavity",
         "time": {"step_s": 1e-4, "end_s": 0.005},
         "grains": {
             "density_kg_m3": 3230,

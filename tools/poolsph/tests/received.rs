@@ -23,7 +23,7 @@ fn plate(told: bool) -> Value {
             "radius_m": 2.5e-4, "spacing_m": 5e-4, "temperature_k": kelvin})
     };
     json!({
-        "kind": "poolsph.scene", "version": 1, "title": "A plate that is heated in every way",
+        "kind": "poolsph.scene", "version": 2, "title": "A plate that is heated in every way",
         "spacing_m": 5e-4, "time": {"step_s": 1e-4, "end_s": 0.02}, "density_kg_m3": 7750,
         "bodies": [{"shape": {"box": {"min_m": [0, 0, -2e-3], "max_m": [10e-3, 6e-3, 0]}}, "state": "solid", "temperature_k": 1200}],
         "heat": {"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 700},

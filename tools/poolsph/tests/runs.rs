@@ -19,7 +19,7 @@ fn folder() -> tempfile::TempDir {
 /// A drop that falls into a small tank of liquid on a plate that conducts heat and melts.
 fn scene() -> Value {
     json!({
-        "kind": "poolsph.scene", "version": 1, "title": "Drop and tank",
+        "kind": "poolsph.scene", "version": 2, "title": "Drop and tank",
         "spacing_m": 5e-4, "time": {"step_s": 1e-4, "end_s": 0.02}, "density_kg_m3": 7850,
         "bodies": [
             {"shape": {"container": {"min_m": [0, 0, 0], "max_m": [4e-3, 4e-3, 4e-3], "thickness_m": 1e-3, "open": ["z+"]}},
@@ -340,7 +340,7 @@ fn divergence_names_step_place_and_quantity() {
 #[test]
 fn the_schema_on_disk_is_that_of_the_program() {
     let output = program().arg("schema").output().unwrap();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schemas/poolsph.scene.v1.json");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../schemas/poolsph.scene.v2.json");
     let kept = std::fs::read_to_string(path).unwrap();
     let printed = String::from_utf8(output.stdout).unwrap();
     assert!(kept == printed, "run `make schemas`");
@@ -369,7 +369,7 @@ fn beside_faces_threads_do_not_show_and_totals_close() {
     let folder = folder();
     let hot = json!({"expr": "2100 + 1e5*x"});
     let layer = json!({
-        "kind": "poolsph.scene", "version": 1, "title": "A layer between faces",
+        "kind": "poolsph.scene", "version": 2, "title": "A layer between faces",
         "spacing_m": 5e-4, "time": {"step_s": 2e-4, "end_s": 0.02}, "density_kg_m3": 7850,
         "bodies": [{
             "shape": {"box": {"min_m": [0, 0, 0], "max_m": [4e-3, 3e-3, 2e-3]}}, "state": "liquid", "temperature_k": hot,
@@ -445,7 +445,7 @@ fn an_arc_and_a_torch_that_give_nothing_are_told() {
     let folder = folder();
     let told = |key: &str, value: Value| {
         let mut plate = json!({
-            "kind": "poolsph.scene", "version": 1, "title": "A plate",
+            "kind": "poolsph.scene", "version": 2, "title": "A plate",
             "spacing_m": 1e-3, "time": {"step_s": 1e-3, "end_s": 0.01}, "density_kg_m3": 7850,
             "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [8e-3, 8e-3, 4e-3]}}, "state": "solid", "temperature_k": 300}],
             "heat": {"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 700},

@@ -14,7 +14,7 @@ const SPEED: f64 = 1.56;
 /// Liquid of half a millimetre a particle without divergence for 20 ms.
 fn scene(bodies: &[Value], gravity: f64, viscosity: f64) -> Value {
     json!({
-        "kind": "poolsph.scene", "version": 1, "spacing_m": 5e-4, "time": {"step_s": 1e-4, "end_s": 0.02},
+        "kind": "poolsph.scene", "version": 2, "spacing_m": 5e-4, "time": {"step_s": 1e-4, "end_s": 0.02},
         "density_kg_m3": 7850, "bodies": bodies,
         "flow": {"viscosity_pa_s": viscosity, "gravity_m_s2": [0, 0, -gravity], "method": "divergence_free"},
         "tension": {"surface_tension_n_m": 1.0},

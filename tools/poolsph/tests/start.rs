@@ -35,7 +35,7 @@ fn input(file: &Path) -> String {
 /// A bar that is hot at one end.
 fn bar(end: f64) -> Value {
     json!({
-        "kind": "poolsph.scene", "version": 1, "title": "A bar",
+        "kind": "poolsph.scene", "version": 2, "title": "A bar",
         "spacing_m": 5e-4, "time": {"step_s": 1e-4, "end_s": end}, "density_kg_m3": 7750,
         "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [8e-3, 1e-3, 1e-3]}}, "state": "solid",
                     "temperature_k": {"expr": "300 + 850*exp(-x/2e-3)"}}],

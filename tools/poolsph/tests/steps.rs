@@ -30,7 +30,7 @@ fn said(output: &Output) -> String {
 
 fn drop(step: f64) -> Value {
     json!({
-        "kind": "poolsph.scene", "version": 1, "spacing_m": 1e-3, "time": {"step_s": step, "end_s": 3.0 * step},
+        "kind": "poolsph.scene", "version": 2, "spacing_m": 1e-3, "time": {"step_s": step, "end_s": 3.0 * step},
         "density_kg_m3": 7850,
         "bodies": [{"shape": {"sphere": {"centre_m": [0, 0, 0], "radius_m": 4e-3}}, "state": "liquid"}],
         "flow": {"method": "projection", "viscosity_pa_s": 0.004}, "tension": {"surface_tension_n_m": 1.0},
@@ -62,7 +62,7 @@ fn a_step_that_nothing_divides_is_refused() {
 /// A plate that conducts heat, with `more` in its scene.
 fn plate(step: f64, steps: f64, more: &Value) -> Value {
     let mut scene = json!({
-        "kind": "poolsph.scene", "version": 1, "spacing_m": 1e-3, "time": {"step_s": step, "end_s": steps * step},
+        "kind": "poolsph.scene", "version": 2, "spacing_m": 1e-3, "time": {"step_s": step, "end_s": steps * step},
         "density_kg_m3": 7850,
         "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [6e-3, 6e-3, 3e-3]}}, "state": "solid", "temperature_k": 300}],
         "heat": {"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 600},

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 /// A plate of 8 x 8 x 4 mm with more keys.
 fn plate(more: &Value) -> Value {
     let mut scene = json!({
-        "kind": "poolsph.scene", "version": 1, "title": "A plate",
+        "kind": "poolsph.scene", "version": 2, "title": "A plate",
         "spacing_m": 1e-3, "time": {"step_s": 1e-3, "end_s": 0.02}, "density_kg_m3": 7850,
         "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [8e-3, 8e-3, 4e-3]}}, "state": "solid", "temperature_k": 300}],
         "heat": {"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 700,

@@ -29,7 +29,7 @@ fn artefact<S: AsRef<std::ffi::OsStr>>(arguments: &[S]) -> Told {
 
 fn scene() -> serde_json::Value {
     serde_json::json!({
-        "kind": "poolsph.scene", "version": 1, "title": "A drop", "spacing_m": 5e-4,
+        "kind": "poolsph.scene", "version": 2, "title": "A drop", "spacing_m": 5e-4,
         "time": {"step_s": 1e-4, "end_s": 2.0}
     })
 }
@@ -456,7 +456,7 @@ fn verify_hash_compares_scene_patches_and_inputs() {
     // Another order of keys and other spaces; a patch that leads to the scene that ran.
     let base = file(
         "scene.json",
-        "{\"version\": 1,\n \"kind\": \"poolsph.scene\", \"title\": \"A drop\", \"spacing_m\": 5e-4,\n \"time\": {\"end_s\": 9, \"step_s\": 1e-4, \"x\": 1}}",
+        "{\"version\": 2,\n \"kind\": \"poolsph.scene\", \"title\": \"A drop\", \"spacing_m\": 5e-4,\n \"time\": {\"end_s\": 9, \"step_s\": 1e-4, \"x\": 1}}",
     );
     let patch = file("patch.json", "{\"time\": {\"end_s\": 2.0, \"x\": null}}");
     let arc = file("arc.mcap", "arc bytes");
@@ -496,14 +496,14 @@ fn a_scene_that_names_files_is_known_by_what_was_written() {
     let sheet = folder.path().join("materials/steel.json");
     std::fs::write(&sheet, "a sheet").unwrap();
     let written = serde_json::json!({
-        "kind": "poolsph.scene", "version": 1,
+        "kind": "poolsph.scene", "version": 2,
         "substances": {"steel": {"file": "materials/steel.json"}}, "density_kg_m3": "steel"
     });
     let base = folder.path().join("scene.json");
     std::fs::write(&base, written.to_string()).unwrap();
     let mut header = header();
     header.scene = serde_json::json!({
-        "kind": "poolsph.scene", "version": 1, "density_kg_m3": 7850,
+        "kind": "poolsph.scene", "version": 2, "density_kg_m3": 7850,
         "substances": {"steel": {"from": "materials/steel.json", "sha256": artefact::sha256(b"a sheet")}},
         "written_sha256": artefact::sha256(artefact::canonical(&written).as_bytes())
     });

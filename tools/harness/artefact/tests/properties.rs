@@ -19,7 +19,7 @@ fn header() -> Header {
         version: Version::new(1, 0),
         tool: "poolsph".to_owned(),
         tool_version: "0.1.0".to_owned(),
-        scene: serde_json::json!({"kind": "poolsph.scene", "version": 1, "spacing_m": 5e-4}),
+        scene: serde_json::json!({"kind": "poolsph.scene", "version": 2, "spacing_m": 5e-4}),
         inputs: [("arc".to_owned(), "ab".repeat(32))].into(),
     }
 }

@@ -183,7 +183,7 @@ mod tests {
             version: Version::new(1, 0),
             tool: "poolsph".to_owned(),
             tool_version: "0.1.0".to_owned(),
-            scene: json!({"kind": "poolsph.scene", "version": 1}),
+            scene: json!({"kind": "poolsph.scene", "version": 2}),
             inputs: std::collections::BTreeMap::new(),
         }
     }

@@ -469,6 +469,7 @@ const TOY: Expected = Expected {
                 Some(None) => Err(Fault::at("/diameter_mm", "is no number")),
                 None => Err(Fault::at("", "has no key 'diameter_mm'")),
             },
+            renames: false,
         },
         Migration {
             from: 2,
@@ -477,6 +478,7 @@ const TOY: Expected = Expected {
                 scene.insert("drop".to_owned(), json!({"radius_m": radius}));
                 Ok(())
             },
+            renames: false,
         },
     ],
 };
@@ -513,6 +515,60 @@ fn an_older_scene_is_read_by_a_chain_of_migrations() {
         let (scene, migrated) = toy(text).expect(text);
         assert!((scene.drop.radius_m - drop.drop.radius_m).abs() < 1e-15);
         assert_eq!(migrated, from);
+    }
+}
+
+/// Version 2 calls the width of a door by its unit.
+const DOOR: Expected = Expected {
+    kind: "door.scene",
+    version: 2,
+    migrations: &[Migration {
+        from: 1,
+        change: |scene| {
+            if let Some(width) = scene.shift_remove("width") {
+                scene.entry("width_m").or_insert(width);
+            }
+            Ok(())
+        },
+        renames: true,
+    }],
+};
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Door {
+    width_m: f64,
+}
+
+#[test]
+fn patches_may_have_older_and_newer_words_than_their_scene() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("a file");
+        path
+    };
+    let old = file(
+        "old.json",
+        r#"{"kind": "door.scene", "version": 1, "width": 1}"#,
+    );
+    let new = file(
+        "new.json",
+        r#"{"kind": "door.scene", "version": 2, "width_m": 1}"#,
+    );
+    let words = ["width", "width_m"].map(|word| {
+        file(
+            &format!("{word}.patch.json"),
+            &format!(r#"{{"{word}": 2}}"#),
+        )
+    });
+    for scene in [old, new] {
+        for word in &words {
+            let patches = std::slice::from_ref(word);
+            let loaded = load::<Door>(&scene, patches, &schema_of::<Door>(DOOR), DOOR);
+            let door = loaded.unwrap_or_else(|e| panic!("{e}")).scene;
+            assert!((door.width_m - 2.0).abs() < 1e-15, "{scene:?} {word:?}");
+        }
     }
 }
 

@@ -194,10 +194,11 @@ fn body_points(body: &Body) -> Vec<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::domain::shape::{BoxShape, Container, Sphere};
+    use crate::domain::shape::Container;
     use crate::state::{ENTHALPY, TEMPERATURE, WALL};
     use particles::{Matter, POSITION};
     use shapes::Face;
+    use shapes::shape::{BoxShape, Sphere};
 
     const D: f64 = 1e-3;
 
@@ -242,8 +243,9 @@ mod tests {
 
     fn cube(edge: f64) -> Shape {
         Shape::Box(BoxShape {
-            min_m: [0.0; 3],
-            max_m: [edge; 3],
+            name: None,
+            min_m: vec![0.0; 3],
+            max_m: vec![edge; 3],
         })
     }
 
@@ -256,7 +258,8 @@ mod tests {
         let mut state = empty();
         let mut ball = body(
             Shape::Sphere(Sphere {
-                centre_m: [10.4 * D, 5.0 * D, 5.0 * D],
+                name: None,
+                centre_m: vec![10.4 * D, 5.0 * D, 5.0 * D],
                 radius_m: 3.0 * D,
             }),
             phase::LIQUID,

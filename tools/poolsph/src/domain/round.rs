@@ -115,23 +115,27 @@ fn stretch(shape: &Shape, pitch: [f64; 3], anchor: Option<[f64; 3]>) -> [f64; 3]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::domain::shape::{Cylinder, Ellipsoid, Sphere, edge};
+    use crate::domain::shape::edge;
     use shapes::Axis;
+    use shapes::shape::{Cylinder, EllipsoidShape, Sphere};
 
     const D: f64 = 5e-4;
 
     fn shapes(radius: f64) -> [Shape; 3] {
-        let centre_m = [1e-3, 2e-3, 3.3e-3];
+        let centre_m = vec![1e-3, 2e-3, 3.3e-3];
         [
             Shape::Sphere(Sphere {
-                centre_m,
+                name: None,
+                centre_m: centre_m.clone(),
                 radius_m: radius,
             }),
-            Shape::Ellipsoid(Ellipsoid {
-                centre_m,
-                half_m: [0.8 * radius, 1.2 * radius, radius],
+            Shape::Ellipsoid(EllipsoidShape {
+                name: None,
+                centre_m: centre_m.clone(),
+                semi_axes_m: vec![0.8 * radius, 1.2 * radius, radius],
             }),
             Shape::Cylinder(Cylinder {
+                name: None,
                 centre_m,
                 axis: Axis::Y,
                 radius_m: radius,

@@ -7,67 +7,14 @@ use std::f64::consts::PI;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use shapes::shape::{Stl, Turned};
-use shapes::{Axis, Body};
+use shapes::Body;
+use shapes::shape::{BoxShape, Cylinder, EllipsoidShape, Sphere, Stl, Turned};
 
 pub use super::container::Container;
 use super::container::{container_points, walls};
 use super::row::{lattice, product};
 
-/// A box along the axes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BoxShape {
-    /// Lower corner \[m\].
-    #[schemars(extend("x-unit" = "m"))]
-    pub min_m: [f64; 3],
-    /// Upper corner \[m\].
-    #[schemars(extend("x-unit" = "m"))]
-    pub max_m: [f64; 3],
-}
-
-/// A round bar along an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Cylinder {
-    /// Centre of the bar \[m\].
-    #[schemars(extend("x-unit" = "m"))]
-    pub centre_m: [f64; 3],
-    /// Direction of the bar.
-    pub axis: Axis,
-    /// Radius \[m\].
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
-    pub radius_m: f64,
-    /// Length \[m\].
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
-    pub length_m: f64,
-}
-
-/// A ball.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Sphere {
-    /// Centre \[m\].
-    #[schemars(extend("x-unit" = "m"))]
-    pub centre_m: [f64; 3],
-    /// Radius \[m\].
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
-    pub radius_m: f64,
-}
-
-/// A ball drawn out along the axes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Ellipsoid {
-    /// Centre \[m\].
-    #[schemars(extend("x-unit" = "m"))]
-    pub centre_m: [f64; 3],
-    /// Half of its length along x, y, z \[m\], each above zero.
-    #[schemars(extend("x-unit" = "m"))]
-    pub half_m: [f64; 3],
-}
-
-/// What a body looks like.
+/// What a body looks like: a shape in the words of all programs, or walls.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
@@ -78,7 +25,7 @@ pub enum Shape {
     /// A ball.
     Sphere(Sphere),
     /// A ball drawn out along the axes.
-    Ellipsoid(Ellipsoid),
+    Ellipsoid(EllipsoidShape),
     /// Walls around a box.
     Container(Container),
     /// A closed surface from a file.
@@ -100,27 +47,43 @@ const SLACK: f64 = 1e-9;
 const MEASURED: u32 = 65_536;
 
 impl Shape {
-    /// A composed shape as the other tools read it; none for what is simple.
+    /// The shape as the other programs read it; none of walls.
     #[must_use]
-    pub fn composed(&self) -> Option<shapes::Shape> {
+    pub fn plain(&self) -> Option<shapes::Shape> {
         Some(match self {
+            Self::Box(own) => shapes::Shape::Box(own.clone()),
+            Self::Cylinder(bar) => shapes::Shape::Cylinder(bar.clone()),
+            Self::Sphere(ball) => shapes::Shape::Sphere(ball.clone()),
+            Self::Ellipsoid(drawn) => shapes::Shape::Ellipsoid(drawn.clone()),
+            Self::Container(_) => return None,
             Self::Stl(stl) => shapes::Shape::Stl(stl.clone()),
             Self::Turned(turned) => shapes::Shape::Turned(turned.clone()),
             Self::Union(parts) => shapes::Shape::Union(parts.clone()),
             Self::Intersection(parts) => shapes::Shape::Intersection(parts.clone()),
             Self::Difference(parts) => shapes::Shape::Difference(parts.clone()),
-            _ => return None,
         })
+    }
+
+    /// Whether the lattice asks its body which places it holds.
+    fn is_composed(&self) -> bool {
+        matches!(
+            self,
+            Self::Stl(_)
+                | Self::Turned(_)
+                | Self::Union(_)
+                | Self::Intersection(_)
+                | Self::Difference(_)
+        )
     }
 
     /// Lower and upper corner of the box around the shape \[m\].
     #[must_use]
     pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         match self {
-            Self::Box(b) => (b.min_m, b.max_m),
-            Self::Cylinder(c) => around(c.centre_m, cylinder_half(c)),
-            Self::Sphere(s) => around(s.centre_m, [s.radius_m; 3]),
-            Self::Ellipsoid(e) => around(e.centre_m, e.half_m),
+            Self::Box(b) => (three(&b.min_m), three(&b.max_m)),
+            Self::Cylinder(c) => around(three(&c.centre_m), cylinder_half(c)),
+            Self::Sphere(s) => around(three(&s.centre_m), [s.radius_m; 3]),
+            Self::Ellipsoid(e) => around(three(&e.centre_m), three(&e.semi_axes_m)),
             Self::Container(c) => {
                 let (mut low, mut high) = (c.min_m, c.max_m);
                 for axis in 0..3 {
@@ -139,7 +102,8 @@ impl Shape {
 
     /// The body of a composed shape.
     fn body(&self) -> Option<Body> {
-        self.composed().map(|shape| Body::new(&shape, 3))
+        let shape = self.is_composed().then(|| self.plain())??;
+        Some(Body::new(&shape, 3))
     }
 
     /// Lattice points of the spacings `pitch` \[m\] along each edge of the box around the shape, before any is
@@ -185,11 +149,14 @@ impl Shape {
     #[must_use]
     pub fn round(&self) -> Option<([f64; 3], f64)> {
         match self {
-            Self::Cylinder(c) => Some((c.centre_m, PI * c.radius_m * c.radius_m * c.length_m)),
-            Self::Sphere(s) => Some((s.centre_m, 4.0 / 3.0 * PI * s.radius_m.powi(3))),
+            Self::Cylinder(c) => {
+                let volume = PI * c.radius_m * c.radius_m * c.length_m;
+                Some((three(&c.centre_m), volume))
+            }
+            Self::Sphere(s) => Some((three(&s.centre_m), 4.0 / 3.0 * PI * s.radius_m.powi(3))),
             Self::Ellipsoid(e) => {
-                let volume = 4.0 / 3.0 * PI * e.half_m.iter().product::<f64>();
-                Some((e.centre_m, volume))
+                let volume = 4.0 / 3.0 * PI * e.semi_axes_m.iter().product::<f64>();
+                Some((three(&e.centre_m), volume))
             }
             _ => None,
         }
@@ -242,7 +209,7 @@ impl Shape {
                 square <= s.radius_m * s.radius_m
             }
             Self::Ellipsoid(e) => {
-                let part = |k: usize| ((p[k] - e.centre_m[k]) / e.half_m[k]).powi(2);
+                let part = |k: usize| ((p[k] - e.centre_m[k]) / e.semi_axes_m[k]).powi(2);
                 part(0) + part(1) + part(2) <= 1.0
             }
         }
@@ -265,6 +232,11 @@ fn cylinder_half(c: &Cylinder) -> [f64; 3] {
     half
 }
 
+/// Three coordinates; those that a scene with faults lacks are zero.
+fn three(coordinates: &[f64]) -> [f64; 3] {
+    [0, 1, 2].map(|k| coordinates.get(k).copied().unwrap_or(0.0))
+}
+
 fn around(centre: [f64; 3], half: [f64; 3]) -> ([f64; 3], [f64; 3]) {
     (
         [0, 1, 2].map(|k| centre[k] - half[k]),
@@ -275,14 +247,16 @@ fn around(centre: [f64; 3], half: [f64; 3]) -> ([f64; 3], [f64; 3]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use shapes::Axis;
 
     const D: f64 = 0.5e-3;
 
     #[test]
     fn the_plate_of_the_thesis_has_its_52000_particles() {
         let plate = Shape::Box(BoxShape {
-            min_m: [-10e-3, 0.0, -5e-3],
-            max_m: [10e-3, 65e-3, 0.0],
+            name: None,
+            min_m: vec![-10e-3, 0.0, -5e-3],
+            max_m: vec![10e-3, 65e-3, 0.0],
         });
         let points = plate.points([D; 3], None);
         assert_eq!(points.len(), 52_000);
@@ -293,8 +267,9 @@ mod tests {
     #[test]
     fn an_anchor_shifts_the_lattice() {
         let shape = Shape::Box(BoxShape {
-            min_m: [0.0; 3],
-            max_m: [4.0 * D; 3],
+            name: None,
+            min_m: vec![0.0; 3],
+            max_m: vec![4.0 * D; 3],
         });
         let shifted = shape.points([D; 3], Some([0.25 * D; 3]));
         assert_eq!(shifted.len(), 64);
@@ -305,16 +280,18 @@ mod tests {
     fn round_bodies_fill_their_volume() {
         let (radius, length) = (10.0 * D, 20.0 * D);
         let sphere = Shape::Sphere(Sphere {
-            centre_m: [1e-3, 2e-3, 3e-3],
+            name: None,
+            centre_m: vec![1e-3, 2e-3, 3e-3],
             radius_m: radius,
         });
         let volume = sphere.points([D; 3], None).len() as f64 * D.powi(3);
         let exact = 4.0 / 3.0 * PI * radius.powi(3);
         assert!((volume / exact - 1.0).abs() < 0.02, "{}", volume / exact);
         let half = [8.0 * D, 12.0 * D, 10.0 * D];
-        let drawn = Shape::Ellipsoid(Ellipsoid {
-            centre_m: [1e-3, 2e-3, 3e-3],
-            half_m: half,
+        let drawn = Shape::Ellipsoid(EllipsoidShape {
+            name: None,
+            centre_m: vec![1e-3, 2e-3, 3e-3],
+            semi_axes_m: half.to_vec(),
         });
         let points = drawn.points([D; 3], None);
         let exact = 4.0 / 3.0 * PI * half.iter().product::<f64>();
@@ -324,7 +301,8 @@ mod tests {
         assert!((reach - 12.0 * D).abs() <= D, "{reach}");
         for axis in [Axis::X, Axis::Y, Axis::Z] {
             let bar = Shape::Cylinder(Cylinder {
-                centre_m: [0.0; 3],
+                name: None,
+                centre_m: vec![0.0; 3],
                 axis,
                 radius_m: radius,
                 length_m: length,

@@ -124,11 +124,11 @@ fn unsaid(scene: &Scene) -> Vec<Fault> {
     missing.map(|(key, _)| fault(key)).collect()
 }
 
-/// What is wrong with composed shapes.
+/// What is wrong with shapes.
 fn shapes(scene: &Scene) -> Vec<Fault> {
     let mut misfits = Vec::new();
     for (i, body) in scene.bodies.iter().enumerate() {
-        if let Some(shape) = body.shape.composed() {
+        if let Some(shape) = body.shape.plain() {
             check(&shape, &format!("/bodies/{i}/shape"), 3, &mut misfits);
         }
     }

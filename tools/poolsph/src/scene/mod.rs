@@ -5,6 +5,7 @@ mod body;
 mod check;
 mod lattice;
 mod odd;
+mod older;
 mod output;
 mod size;
 mod time;
@@ -19,6 +20,7 @@ pub use body::{BodyScene, CutScene, StartState};
 pub use check::faults;
 pub use lattice::Lattice;
 pub use odd::{doubts, notes};
+pub use older::MIGRATIONS;
 pub use output::{FloatWidth, Output, PoolOutput};
 pub use time::{Adaptive, Time};
 
@@ -30,7 +32,7 @@ use crate::heat::received;
 use crate::{faces, grains, heat, motion, source};
 
 /// Kind and version of the scenes that this tool reads.
-pub const KIND: (&str, u32) = ("poolsph.scene", 1);
+pub const KIND: (&str, u32) = ("poolsph.scene", 2);
 
 /// A weld pool, or any part of its physics.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -3,19 +3,45 @@
 use serde_json::{Map, Value};
 
 use super::Expected;
+use super::origin::Document;
 use super::patch::{Merged, located};
 use crate::failure::Failure;
 use crate::fault::Fault;
 
 /// The step from a version of a scene to the next.
 ///
-/// Patches are merged before, so that they are of the version of their scene.
+/// Patches have no version. They are merged before, so that they are of the version of their scene. A patch of a scene that is
+/// not older may still have older words: steps that only rename are applied to it too.
 #[derive(Debug, Clone, Copy)]
 pub struct Migration {
     /// The version that it reads; it leaves the next.
     pub from: u32,
     /// Changes the scene; a fault where an old scene says what the new one cannot.
     pub change: fn(&mut Map<String, Value>) -> Result<(), Fault>,
+    /// Whether it only renames keys: what lacks them, as a patch may, is left as it is.
+    pub renames: bool,
+}
+
+/// Reads older words of a patch to a scene that is not older itself.
+///
+/// # Errors
+/// What a step that only renames says.
+pub(super) fn reword(
+    patch: &mut Document,
+    scene: &Merged,
+    expected: Expected,
+) -> Result<(), Failure> {
+    let stated = scene.value().get("version").and_then(Value::as_u64);
+    if stated != Some(expected.version.into()) {
+        return Ok(());
+    }
+    let Value::Object(map) = &mut patch.value else {
+        return Ok(());
+    };
+    for step in expected.migrations.iter().filter(|step| step.renames) {
+        (step.change)(map)?;
+    }
+    Ok(())
 }
 
 /// Brings a scene to the version that the tool reads; gives the version that it had if it was older.

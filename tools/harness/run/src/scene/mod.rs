@@ -69,7 +69,9 @@ pub fn load<S: DeserializeOwned>(
 ) -> Result<Loaded<S>, Failure> {
     let mut merged = Merged::new(Document::read(scene)?);
     for patch in patches {
-        merged.apply(Document::read(patch)?);
+        let mut patch = Document::read(patch)?;
+        migrate::reword(&mut patch, &merged, expected)?;
+        merged.apply(patch);
     }
     typed(merged, schema, expected)
 }
