@@ -8,7 +8,7 @@ LIQUID_MEANS := $(LIQUID)/mean-1.mcap $(LIQUID)/mean-2.mcap $(LIQUID)/mean-3.mca
 LIQUID_ARCS := $(LIQUID)/arc-2.mcap $(LIQUID)/arc-3.mcap $(LIQUID)/arc-4.mcap
 
 .PHONY: gmaw-300a-liquid
-gmaw-300a-liquid: $(LIQUID)/report.html ## gmaw-300a with metal that flows as a liquid, arc and pool in turns (an hour and more)
+gmaw-300a-liquid: $(LIQUID)/report.html ## gmaw-300a with metal that flows as a liquid, arc and pool in turns (half an hour and more)
 
 $(LIQUID)/pool-1.mcap: build/gmaw-300a/arc.mcap
 $(LIQUID)/pool-2.mcap: $(LIQUID)/arc-2.mcap
