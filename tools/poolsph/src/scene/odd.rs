@@ -55,23 +55,53 @@ fn roomless(scene: &Scene) -> Option<String> {
 
 /// Part of its volume by which a droplet may differ from a ball of its radius.
 const LUMPY: f64 = 0.1;
+/// How many times the volume of that ball it may be where what is fed is kept, and the inverse.
+const SPARSE: f64 = 2.0;
 
-/// Droplets that come as often as the scene says and hold another volume than balls of their radius.
+/// Particles of a droplet, its volume and that of a ball of its radius \[m3\], on both sides of a mirror that halves it.
+struct Held {
+    particles: usize,
+    volume: f64,
+    ball: f64,
+}
+
+impl Held {
+    fn of(scene: &Scene, wire: &Wire) -> Self {
+        let (spacing, radius) = (scene.metal().spacing, wire.droplets.radius_m);
+        let mirror = scene.halving(wire).ok().flatten();
+        let sides = if mirror.is_some() { 2 } else { 1 };
+        let particles = sides * shape(radius, spacing, mirror).len();
+        Self {
+            particles,
+            volume: particles as f64 * spacing.powi(3),
+            ball: 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
+        }
+    }
+}
+
+/// Droplets that hold another volume than balls of their radius: those that come as often as the scene says, and those that come more
+/// or less often for it.
 fn lumpy(scene: &Scene) -> Vec<String> {
-    let spacing = scene.metal().spacing;
     let told = |wire: &Wire| {
-        let droplets = wire.droplets;
-        droplets.period_s?;
-        let particles = shape(droplets.radius_m, spacing, None).len();
-        let (held, ball) = (
-            particles as f64 * spacing.powi(3),
-            4.0 / 3.0 * std::f64::consts::PI * droplets.radius_m.powi(3),
-        );
-        ((held / ball - 1.0).abs() > LUMPY).then(|| {
+        let Held {
+            particles,
+            volume,
+            ball,
+        } = Held::of(scene, wire);
+        let (at, ratio) = (&wire.at, volume / ball);
+        if wire.droplets.period_s.is_some() {
+            return ((ratio - 1.0).abs() > LUMPY).then(|| {
+                format!(
+                    "{at}: {particles} particles of a droplet are {volume:.3e} m3, a ball of its radius {ball:.3e} m3, and so are \
+                     mass and heat: \"feed_m3_s\" in place of \"period_s\" keeps what is fed"
+                )
+            });
+        }
+        (ratio.max(1.0 / ratio) > SPARSE).then(|| {
             format!(
-                "{}: {particles} particles of a droplet are {held:.3e} m3, a ball of its radius {ball:.3e} m3, and so are \
-                 mass and heat: \"feed_m3_s\" in place of \"period_s\" keeps what is fed",
-                wire.at
+                "{at}: a droplet of {particles} particles is {ratio:.2} times a ball of its radius: what is fed is kept, but droplets \
+                 come {:.2} times as often; a smaller \"spacing_m\" resolves them",
+                1.0 / ratio
             )
         })
     };
@@ -285,6 +315,33 @@ mod tests {
             let end = time.steps() as f64 * time.step();
             assert!((end / end_s - 1.0).abs() < 1e-9 && time.step() <= step_s);
         }
+    }
+
+    #[test]
+    fn droplets_of_too_few_particles_are_told() {
+        let weld = |spacing: f64, halved: bool| {
+            let mirror = if halved { json!(["x-"]) } else { json!([]) };
+            told(&json!({
+                "spacing_m": spacing,
+                "source": {"start_m": [0, 0, 0], "velocity_m_s": [0, 0.01, 0]},
+                "faces": {"min_m": [0, 0, 0], "max_m": [0.01, 0.02, 0.05], "mirror": mirror},
+                "droplets": {"feed_m3_s": 1.5e-7, "radius_m": 7.5e-4, "height_m": 0.02, "speed_m_s": 1.5, "temperature_k": 2000}
+            }))
+        };
+        // Lattice points within the radius: 19 of 0.5 mm, 7 of 0.714 mm; beside the plane 2 x 10 and 2 x 1.
+        for (spacing, halved) in [(5e-4, false), (5e-4, true), (7.14e-4, false)] {
+            let said = weld(spacing, halved).concat();
+            assert!(
+                !said.contains("of a droplet") && !said.contains("a droplet of"),
+                "{said}"
+            );
+        }
+        let said = weld(7.14e-4, true).concat();
+        assert!(
+            said.contains("a droplet of 2 particles is 0.41 times a ball"),
+            "{said}"
+        );
+        assert!(said.contains("come 2.42 times as often"), "{said}");
     }
 
     #[test]
