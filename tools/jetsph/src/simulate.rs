@@ -74,9 +74,10 @@ impl<'a> Simulation<'a> {
     /// The next time at which something is due \[s\].
     fn next_event(&self) -> f64 {
         let (time, output) = (self.run.state.time, &self.scene.output);
+        let end = self.scene.time.end_s;
         let intervals = [output.frames_interval_s, output.balance_interval()];
-        let events = intervals.map(|interval| instants::after(time, interval));
-        events.into_iter().fold(self.scene.time.end_s, f64::min)
+        let events = intervals.map(|interval| instants::after(time, interval, end));
+        events.into_iter().fold(end, f64::min)
     }
 
     /// One step: the way to the next event in equal parts, each within all limits.

@@ -50,10 +50,16 @@ pub fn merged(mut all: Vec<Instant>, end: f64, one: impl Fn(f64, f64) -> bool) -
     merged
 }
 
-/// The first multiple of `interval` \[s\] after `time` \[s\]. A time that is nearer to one than a millionth of the interval is at it.
+/// The first multiple of `interval` \[s\] after `time` \[s\], or `end` \[s\] where that comes before it. Times that are nearer to a
+/// multiple than a millionth of the interval are at it.
 #[must_use]
-pub fn after(time: f64, interval: f64) -> f64 {
-    interval * ((time / interval + ROUNDING).floor() + 1.0)
+pub fn after(time: f64, interval: f64, end: f64) -> f64 {
+    let next = interval * ((time / interval + ROUNDING).floor() + 1.0);
+    if next < end - ROUNDING * interval {
+        next
+    } else {
+        end
+    }
 }
 
 /// Whether `time` \[s\] is a multiple of `interval` \[s\].
@@ -118,13 +124,23 @@ mod tests {
 
     #[test]
     fn what_is_typed_at_start_and_end_is_no_instant_more() {
-        let typed = [0.0, 0.5, 1.0 + 1e-13].map(Instant::whole);
+        let typed = [0.0, 0.5, 0.6, 1.0 + 1e-13].map(Instant::whole);
         let times = |one: fn(f64, f64) -> bool| -> Vec<f64> {
             let all = merged(typed.to_vec(), 1.0, one);
             all.iter().map(|i| i.time).collect()
         };
-        assert_eq!(times(|_, _| false), [0.0, 0.5, 1.0]);
-        assert_eq!(times(|a, b| (a - b).abs() < 0.6), [0.0, 1.0]);
+        assert_eq!(times(|_, _| false), [0.0, 0.5, 0.6, 1.0]);
+        assert_eq!(times(|a, b| (a - b).abs() < 0.2), [0.0, 0.5, 1.0]);
+    }
+
+    #[test]
+    fn the_end_comes_once_whatever_a_multiple_rounds_to() {
+        // 3 times 0.7 is less than 2.1, and 3 times 0.1 is more than 0.3.
+        assert!(3.0 * 0.7 < 2.1 && 3.0 * 0.1 > 0.3);
+        assert_eq!(after(1.4, 0.7, 2.1), 2.1);
+        assert_eq!(after(0.2, 0.1, 0.3), 0.3);
+        assert_eq!(after(0.0, 0.5, 0.3), 0.3);
+        assert_eq!(after(0.5, 0.5, 2.0), 1.0);
     }
 
     #[test]
