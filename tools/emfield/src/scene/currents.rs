@@ -3,6 +3,7 @@
 use run::property::Property;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use shapes::check::Misfit;
 use steps::Legs;
 
 use super::{Geometry, Output};
@@ -70,6 +71,18 @@ fn tolerance() -> f64 {
 }
 
 impl Transient {
+    /// Steps that are asked to grow and may not even have their first length.
+    pub(super) fn narrow(&self) -> Option<Misfit> {
+        let most = self.adaptive?.greatest_s?;
+        (most < self.step_s).then(|| {
+            let what = format!(
+                "{most} s is shorter than the shortest step, {} s",
+                self.step_s
+            );
+            Misfit::at("/eddy_currents/transient/adaptive/greatest_s", what)
+        })
+    }
+
     /// Its steps, which end at each instant that is written.
     pub(crate) fn steps(&self, output: &Output) -> Legs {
         Legs::new(self.step_s, output.instants(self.end_s))

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use run::Fault;
 use shapes::check::{self, Misfit};
 
-use super::currents::RegionCoil;
+use super::currents::{RegionCoil, Transient};
 use super::method::{Interfaces, Way};
 use super::output::Closed;
 use super::{BodyScene, Coil, Domain, EddyCurrents, Geometry, Scene};
@@ -266,6 +266,7 @@ impl EddyCurrents {
             }
             _ => {}
         }
+        misfits.extend(self.transient.as_ref().and_then(Transient::narrow));
         let net = scene.bodies.iter().any(|b| b.net_current_a.is_some());
         if self.coils.is_empty() && self.applied_flux_density_t.is_none() && !net {
             let what = "neither \"coils\" nor \"applied_flux_density_t\" drives currents";

@@ -112,6 +112,13 @@ fn faults_of_eddy_currents_are_located() {
         r#"{applied}, "transient": {{"end_s": 1, "step_s": 0.1, "wave": {{"expr": "x"}}}}"#
     );
     assert_eq!(eddy(&wave), [format!("{at}/transient/wave/expr")]);
+    let grown = |most: f64| {
+        eddy(&format!(
+            r#"{applied}, "transient": {{"end_s": 1, "step_s": 0.1, "adaptive": {{"greatest_s": {most}}}}}"#
+        ))
+    };
+    let short = format!("{at}/transient/adaptive/greatest_s");
+    assert_eq!((grown(0.05), grown(0.1)), (vec![short], Vec::new()));
 }
 
 #[test]
