@@ -23,6 +23,9 @@ const WARM: u64 = 100;
 /// The least that is asked of us on a core: grains times steps per second, and times theirs.
 const LEAST: [f64; 2] = [9e6, 1.5];
 
+/// Skin of the lists of both over the radius of a grain: that of `poolsph`.
+const SKIN: f64 = 0.4;
+
 /// Where and how often both are run.
 #[derive(Debug, Clone)]
 pub struct Beside<'a> {
@@ -191,7 +194,7 @@ fn written(bed: &Path, told: &Value, ours: &Timed) -> Result<Value, LabError> {
         "mass_kg": mass(density, radius),
         "density_kg_m3": density,
         "gravity_m_s2": scene["gravity_m_s2"],
-        "skin_m": 0.25 * radius,
+        "skin_m": SKIN * radius,
         "step_s": ours.end / ours.steps,
         "warm_steps": WARM,
         "steps": ours.steps as u64,

@@ -3,7 +3,7 @@
 use contact::Grain;
 
 /// Rows of a cell.
-pub const CELL: usize = 64;
+pub const CELL: usize = 8;
 
 /// A cell that is awake.
 pub(super) const AWAKE: u8 = 0;

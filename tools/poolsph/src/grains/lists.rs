@@ -23,7 +23,7 @@ pub const ROWS: usize = 512;
 /// Chunks that a thread takes at once at most: those that are awake, or are listed again, lie together.
 pub const AT_ONCE: usize = 4;
 /// Skin over the least radius. Wider lists last longer and cost more in each step.
-const SKIN: f64 = 0.25;
+const SKIN: f64 = 0.4;
 
 /// Two grains that may touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -81,7 +81,7 @@ pub struct ContactScene {
     pub rolling: Option<RollingScene>,
 }
 
-/// When grains fall asleep, by cells of some four grains along each side. What is slower is taken for rest.
+/// When grains fall asleep, by cells of some two grains along each side. What is slower is taken for rest.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SleepScene {

@@ -1,6 +1,6 @@
 //! Sleep: what rests is not moved, and deep within it nothing is reckoned.
 //!
-//! [`CELL`] rows make a cell, some four grains along each side; cells are neighbours where they share a pair. A cell is quiet
+//! [`CELL`] rows make a cell, some two grains along each side; cells are neighbours where they share a pair. A cell is quiet
 //! where its grains, or their surfaces by their turning, have gone no farther within the time T than at the speed v, in the mean, and
 //! none of them b times as far:
 //!
