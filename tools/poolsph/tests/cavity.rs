@@ -18,6 +18,18 @@ fn finished(scene: &Value, out: &Path) {
     assert_eq!(output.status.code(), Some(0), "{said}");
 }
 
+/// What is said of a scene that cannot be.
+fn refused(scene: &Value, folder: &Path) -> String {
+    let path = folder.join("scene.json");
+    std::fs::write(&path, scene.to_string()).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_poolsph"));
+    command.arg("run").arg(&path);
+    let output = command.arg("--out").arg(folder.join("out.mcap")).output();
+    let output = output.unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
 fn ends(artefact: &Path, channel: &str) -> [Record; 2] {
     let records = Reader::open(artefact).unwrap().records(channel).unwrap();
     [&records[0], &records[records.len() - 1]].map(|(_, record)| record.clone())
@@ -88,6 +100,69 @@ fn light_is_taken_up_and_slag_that_boils_is_no_hotter() {
     );
 }
 
+/// The places of the grains of [`cavity`], nearer by a hundredth: all touch, so that vapour finds a way from each.
+fn pressed() -> Vec<[f64; 3]> {
+    let lattice = |k: i32| 4.95e-4 * (f64::from(k) + 0.5);
+    let grains = (0..4000).map(|k| [k % 20 - 10, k / 20 % 20 - 10, k / 400].map(lattice));
+    let outside = |x: &[f64; 3]| x.iter().map(|x| x * x).sum::<f64>().sqrt() > 3.25e-3;
+    grains.filter(outside).collect()
+}
+
+#[test]
+fn vapour_that_condenses_leaves_its_heat_in_the_bed() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("condensed.mcap");
+    let mut scene = cavity();
+    scene["grains"]["bodies"][0] = json!({"places_m": pressed(), "radius_m": 2.5e-4,
+        "driven_m_s": [0, 0, 0], "temperature_k": 600});
+    scene["grains"]["walls"][0]["light"]["power_w"] = json!(6000);
+    scene["time"]["end_s"] = json!(0.03);
+    let slag = |scene: &Value| {
+        finished(scene, &out);
+        let reader = Reader::open(&out).unwrap();
+        let frame = reader.frame("/grains", reader.count("/grains") - 1);
+        let frame = frame.unwrap();
+        let hottest = frame.f64("temperature").unwrap().into_iter();
+        let hottest = hottest.fold(0.0, f64::max);
+        assert!((hottest - 2850.0).abs() < 1e-6, "{hottest}");
+        let states = frame.u8("state").unwrap();
+        states.iter().filter(|s| **s == 1).count()
+    };
+    let lost = slag(&scene);
+    scene["grains"]["heat"]["slag_vapour"] = json!("condenses");
+    let kept = slag(&scene);
+    let [first, last] = ends(&out, "/grains_balance");
+    let get = |name: &str| last.get(name).unwrap();
+    let (left, condensed) = (get("grain_vapour_j"), get("grain_vapour_condensed_j"));
+    assert!(left.abs() < 1e-12 && condensed > 0.0, "{left} {condensed}");
+    // All light that is taken up stays, but for what the wall gives off.
+    let held = get("grain_light_taken_j") - get("grain_light_given_j");
+    let stored = get("enthalpy_j") - first.get("enthalpy_j").unwrap();
+    assert!((stored / held - 1.0).abs() < 1e-10, "{stored} {held}");
+    assert!(kept as f64 > 1.2 * lost as f64, "{kept} {lost}");
+    // Where it condenses does not hang on the step.
+    scene["time"]["step_s"] = json!(5e-5);
+    let finer = slag(&scene);
+    assert!(
+        finer.abs_diff(kept) as f64 <= 0.02 * kept as f64,
+        "{finer} {kept}"
+    );
+}
+
+#[test]
+fn vapour_condenses_only_where_slag_boils() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = cavity();
+    scene["grains"]["heat"]["slag_vapour"] = json!("condenses");
+    let melting = scene["grains"]["heat"]["melting"].as_object_mut();
+    melting.unwrap().remove("boiling_k");
+    let said = refused(&scene, folder.path());
+    assert!(
+        said.contains("slag_vapour") && said.contains("boiling_k"),
+        "{said}"
+    );
+}
+
 #[test]
 fn without_light_nothing_is_told_of_it() {
     let folder = tempfile::tempdir().unwrap();
@@ -110,18 +185,7 @@ fn slag_boils_above_its_melting_point() {
     let folder = tempfile::tempdir().unwrap();
     let mut cold = cavity();
     cold["grains"]["heat"]["melting"]["boiling_k"] = json!(2500);
-    let path = folder.path().join("scene.json");
-    std::fs::write(&path, cold.to_string()).unwrap();
-    let mut command = Command::new(env!("CARGO_BIN_EXE_poolsph"));
-    let output = command
-        .arg("run")
-        .arg(&path)
-        .arg("--out")
-        .arg(folder.path().join("out.mcap"))
-        .output()
-        .unwrap();
-    assert_eq!(output.status.code(), Some(2));
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let said = refused(&cold, folder.path());
     assert!(
         said.contains("boiling_k") && said.contains("2572"),
         "{said}"

@@ -32,6 +32,7 @@ use super::metal_heat::Contacts;
 use super::neighbours::Neighbours;
 use super::parameters::{ConductanceScene, GrainHeat, Parameters};
 use super::slow::{Busy, Long, Pass, SLOW};
+use super::vapour::Vapour;
 use crate::heat::Caloric;
 use crate::stage::StageError;
 use crate::state::{LIQUID, State};
@@ -48,9 +49,8 @@ pub struct Heat {
     rate: Vec<f64>,
     /// Heat that kept temperatures have brought \[J\].
     pub(super) brought: f64,
-    /// h at which slag boils \[J/kg\], and the heat that went off with vapour \[J\].
-    boiling: Option<f64>,
-    pub(super) boiled: f64,
+    /// Slag that boils, if it can.
+    vapour: Option<Vapour>,
     /// Light on grains.
     pub(super) lighting: Lighting,
     /// The longest step \[s\].
@@ -61,6 +61,9 @@ pub struct Heat {
     /// Long steps of what sleeps deep, if it has any.
     slow: Option<Long>,
 }
+
+/// Numbers of heat in a checkpoint.
+pub(super) const SAVED: usize = 10;
 
 /// A step of `step` \[s\] to `time` \[s\] of a pass.
 struct Part<'a> {
@@ -103,8 +106,7 @@ impl Heat {
             return Err(fault.within("/heat"));
         }
         Ok(Self {
-            boiling: boiling.map(|t| caloric.enthalpy(t)),
-            boiled: 0.0,
+            vapour: boiling.map(|t| Vapour::new(caloric.enthalpy(t), heat.slag_vapour)),
             lighting: Lighting::new(scene.walls.iter().any(|wall| wall.light.is_some())),
             conductor: Conductor {
                 caloric: caloric.clone(),
@@ -143,39 +145,11 @@ impl Heat {
         sums: &mut [f64],
         weight: impl Fn(usize, usize) -> f64 + Sync,
     ) {
-        let chunks = sums.par_chunks_mut(ROWS).zip(&lists.chunks).enumerate();
-        let chunks = chunks.with_max_len(AT_ONCE);
-        chunks.for_each(|(c, (sums, chunk))| {
-            let first = c * ROWS;
-            sums.fill(0.0);
-            if !self.busy.get[c] {
-                return;
-            }
-            for (pair, (place, h)) in chunk
-                .pairs
-                .iter()
-                .zip(self.conductance[c].iter().enumerate())
-            {
-                let (own, b, h) = (pair.own as usize, pair.other as usize, *h);
-                if h > 0.0 {
-                    sums[own] += h * weight(first + own, b);
-                    if place < chunk.inner {
-                        sums[b - first] += h * weight(b, first + own);
-                    }
-                }
-            }
-            for incoming in &chunk.incoming {
-                let from = &lists.chunks[incoming.chunk as usize];
-                let place = from.place(*incoming);
-                let all = &self.conductance[incoming.chunk as usize];
-                let h = all.get(place).copied().unwrap_or(0.0);
-                if h > 0.0 {
-                    let row = incoming.row as usize;
-                    let b = incoming.chunk as usize * ROWS + from.pairs[place].own as usize;
-                    sums[row] += h * weight(first + row, b);
-                }
-            }
-        });
+        let conductance = |chunk: usize, place: usize| {
+            let all = &self.conductance[chunk];
+            all.get(place).copied().unwrap_or(0.0)
+        };
+        lists.sum(&self.busy.get, sums, conductance, weight);
     }
 
     /// One part of a pass.
@@ -209,12 +183,8 @@ impl Heat {
         let mass = set.column(&MASS);
         let get = &self.busy.get;
         change(get, &mut enthalpy, |a, h| *h += step * rate[a] / mass[a]);
-        if let Some(boiling) = self.boiling {
-            let hot = enthalpy.iter_mut().zip(mass);
-            for (h, mass) in hot.filter(|(h, _)| **h > boiling) {
-                self.boiled += mass * (*h - boiling);
-                *h = boiling;
-            }
+        if let Some(vapour) = &mut self.vapour {
+            vapour.rise(lists, get, mass, &mut enthalpy);
         }
         let held = set.column(&HELD).iter().enumerate();
         for (a, body) in held.filter(|(_, body)| **body > 0) {
@@ -225,13 +195,15 @@ impl Heat {
                 enthalpy[a] = kept;
             }
         }
-        let (caloric, boiling) = (&self.caloric, self.boiling.unwrap_or(f64::INFINITY));
+        let (caloric, vapour) = (&self.caloric, self.vapour.as_ref());
         let (temperatures, held) = set.columns_mut((&TEMPERATURE, &HELD));
         change(get, temperatures, |a, t| {
             let held = held.get(a).is_some_and(|body| *body > 0);
             // What has got no heat has the temperature that it had.
-            if rate[a] != 0.0 || held || enthalpy[a] >= boiling {
-                *t = caloric.temperature(enthalpy[a]);
+            let boils = vapour.is_some_and(|vapour| vapour.changes(a, enthalpy[a]));
+            if rate[a] != 0.0 || held || boils {
+                let h = vapour.map_or(enthalpy[a], |vapour| vapour.sensible(enthalpy[a]));
+                *t = caloric.temperature(h);
             }
         });
         set.put(&ENTHALPY, enthalpy);
@@ -356,16 +328,31 @@ impl Heat {
     }
 
     /// Sums, the longest step and the time of a long one, for a checkpoint.
-    pub(super) fn saved(&self) -> [f64; 9] {
+    pub(super) fn saved(&self) -> [f64; SAVED] {
         let waited = self.slow.as_ref().map_or(0.0, |slow| slow.waited);
         let [a, b, c, d, e] = self.lighting.saved();
-        let (brought, limit, boiled) = (self.brought, self.limit, self.boiled);
-        [brought, limit, boiled, waited, a, b, c, d, e]
+        let [left, condensed] = self.vapour.as_ref().map_or([0.0; 2], |vapour| vapour.sums);
+        [
+            self.brought,
+            self.limit,
+            left,
+            condensed,
+            waited,
+            a,
+            b,
+            c,
+            d,
+            e,
+        ]
     }
 
     /// Takes back what [`Heat::saved`] gave.
-    pub(super) fn take_back(&mut self, [brought, limit, boiled, waited, light @ ..]: [f64; 9]) {
-        (self.brought, self.limit, self.boiled) = (brought, limit, boiled);
+    pub(super) fn take_back(&mut self, saved: [f64; SAVED]) {
+        let [brought, limit, left, condensed, waited, light @ ..] = saved;
+        (self.brought, self.limit) = (brought, limit);
+        if let Some(vapour) = &mut self.vapour {
+            vapour.sums = [left, condensed];
+        }
         self.lighting.take_back(light);
         if let Some(slow) = &mut self.slow {
             slow.waited = waited;
@@ -380,9 +367,7 @@ impl Heat {
             value,
         };
         let mut figures = vec![figure("grain_heat_held_j", self.brought)];
-        if self.boiling.is_some() {
-            figures.push(figure("grain_vapour_j", self.boiled));
-        }
+        figures.extend(self.vapour.iter().flat_map(Vapour::figures));
         figures.extend(self.lighting.figures());
         figures
     }

@@ -63,6 +63,7 @@ mod saved;
 pub mod sleep;
 pub mod slow;
 pub mod totals;
+pub mod vapour;
 mod verlet;
 pub mod wall_list;
 mod wall_parameters;

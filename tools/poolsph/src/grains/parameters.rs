@@ -11,6 +11,7 @@ use shapes::Shape;
 
 use super::law::Law;
 use super::metal_parameters::{HertzScene, MetalScene};
+use super::vapour::VapourScene;
 use super::wall_parameters::WallScene;
 use crate::heat::{self, Caloric};
 
@@ -226,6 +227,9 @@ pub struct GrainHeat {
     /// is metal. Absent: it touches as a grain of powder does.
     #[serde(default)]
     pub slag_wets: bool,
+    /// What becomes of the vapour of slag that boils.
+    #[serde(default)]
+    pub slag_vapour: VapourScene,
 }
 
 /// How wide a contact conducts.
@@ -275,7 +279,7 @@ pub struct GrainMelting {
     #[serde(default = "three")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0))]
     pub slag_conductivity_ratio: f64,
-    /// T at which slag boils: further heat leaves with vapour, whose mass is neglected. Absent: it never boils.
+    /// T at which slag boils: further heat goes with its vapour (`slag_vapour`), whose mass is neglected. Absent: it never boils.
     #[schemars(extend("x-unit" = "K"), range(min = 1.0, max = 1e4))]
     pub boiling_k: Option<f64>,
 }
@@ -288,11 +292,17 @@ impl GrainHeat {
     /// What of slag cannot be.
     #[must_use]
     pub fn unmolten(&self) -> Option<Fault> {
+        let condenses = self.slag_vapour == VapourScene::Condenses;
         let Some(melting) = self.melting else {
             let what =
                 "grains without 'melting' never are slag: leave it out, or say when they melt";
-            return self.slag_wets.then(|| Fault::at("/slag_wets", what));
+            let condenses = condenses.then(|| Fault::at("/slag_vapour", what));
+            return (self.slag_wets.then(|| Fault::at("/slag_wets", what))).or(condenses);
         };
+        if condenses && melting.boiling_k.is_none() {
+            let what = "slag that never boils has no vapour: leave it out, or say 'boiling_k' of 'melting'";
+            return Some(Fault::at("/slag_vapour", what));
+        }
         let boiling = melting.boiling_k.filter(|t| *t <= melting.point_k)?;
         let what = format!(
             "{boiling} K is not above the melting point, {} K",

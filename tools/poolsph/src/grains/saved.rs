@@ -6,7 +6,7 @@ use shapes::frame::Vector;
 
 use super::RADIUS;
 use super::bounds::Doing;
-use super::heat::Heat;
+use super::heat::{Heat, SAVED};
 use super::laid::{Laid, Touching, With};
 use super::lists::Lists;
 use super::memory::Memory;
@@ -16,7 +16,7 @@ use super::sleep::Sleep;
 use crate::state::State;
 
 /// Numbers of a checkpoint ahead of the walls.
-const HEAD: usize = 17;
+const HEAD: usize = 8 + SAVED;
 
 impl Motion {
     /// All of it as numbers.
@@ -28,7 +28,7 @@ impl Motion {
             deepest, fastest, ..
         } = self.doing;
         let [left, mass] = self.lost;
-        let heat = self.heat.as_ref().map_or([0.0; 9], Heat::saved);
+        let heat = self.heat.as_ref().map_or([0.0; SAVED], Heat::saved);
         let steps = self.steps;
         let mut saved = vec![
             between.len() as f64,
