@@ -11,13 +11,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const NUMERICS: [&str; 11] = [
+const NUMERICS: [&str; 12] = [
     "neighbours",
     "kernels",
     "props",
     "krylov",
     "relax",
     "wls",
+    "quadrature",
     "shapes",
     "contact",
     "particles",
@@ -36,8 +37,9 @@ fn root() -> PathBuf {
 /// Arrows that a crate of ours may point along.
 fn allowed(from: &str) -> BTreeSet<&'static str> {
     let set: &[&str] = match from {
-        "neighbours" | "props" | "krylov" | "shapes" | "torch" | "steps" | "manual" => &[],
-        "contact" => &["shapes"],
+        "neighbours" | "props" | "krylov" | "quadrature" | "steps" | "manual" => &[],
+        "shapes" => &["quadrature"],
+        "contact" | "torch" => &["shapes"],
         "kernels" | "particles" => &["neighbours"],
         "wls" => &["neighbours", "krylov"],
         "relax" => &["krylov"],

@@ -4,6 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use props::{Integral, Surface, Table};
+use quadrature::SIX;
 
 use crate::mixture::Mixed;
 
@@ -11,13 +12,6 @@ use crate::mixture::Mixed;
 pub const GAS: usize = 0;
 /// Temperature at which every enthalpy is zero \[K\].
 pub const REFERENCE_K: f64 = 300.0;
-
-/// Places and weights of Gauss and Legendre's rule of six points, of one half.
-const GAUSS: [[f64; 2]; 3] = [
-    [0.238_619_186_083_196_9, 0.467_913_934_572_691],
-    [0.661_209_386_466_264_5, 0.360_761_573_048_138_6],
-    [0.932_469_514_203_152, 0.171_324_492_379_170_36],
-];
 
 /// A law in radius \[m\], height \[m\], temperature \[K\] and mass fraction of iron.
 pub type Formula = Arc<dyn Fn(f64, f64, f64, f64) -> f64 + Send + Sync>;
@@ -79,7 +73,8 @@ impl Law {
                 let pair = |x: f64| {
                     formula(r, z, middle - half * x, y) + formula(r, z, middle + half * x, y)
                 };
-                GAUSS.iter().map(|[x, w]| 0.5 * w * pair(*x)).sum()
+                let half_of_rule = &SIX[3..];
+                half_of_rule.iter().map(|(x, w)| 0.5 * w * pair(*x)).sum()
             }
         }
     }

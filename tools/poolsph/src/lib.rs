@@ -19,6 +19,7 @@ pub mod frames;
 pub mod grains;
 pub mod heat;
 pub mod march;
+pub mod mean;
 pub mod memory;
 pub mod motion;
 pub mod patch;

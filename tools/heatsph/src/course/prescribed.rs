@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use quadrature::THREE;
 use rayon::prelude::*;
 use run::property::OutOfRange;
 
@@ -20,12 +21,6 @@ const EXACT: f64 = 0.2 * TOLERANCE;
 const HALVINGS: u32 = 12;
 /// Films and points that one task sums.
 const ROWS: usize = 512;
-/// Nodes and weights of Gauss' rule on [0, 1], three points.
-const GAUSS: [(f64, f64); 3] = [
-    (0.112_701_665_379_258_3, 5.0 / 18.0),
-    (0.5, 8.0 / 18.0),
-    (0.887_298_334_620_741_7, 5.0 / 18.0),
-];
 
 /// What prescribes heat.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,7 +124,7 @@ fn integral(
 ) -> Result<(f64, f64), OutOfRange> {
     let gauss = |[a, b]: [f64; 2]| -> Result<(f64, f64), OutOfRange> {
         let mut sum = (0.0, 0.0);
-        for (s, weight) in GAUSS {
+        for (s, weight) in THREE {
             let (net, gross) = power(a + s * (b - a))?;
             sum = (
                 sum.0 + weight * (b - a) * net,

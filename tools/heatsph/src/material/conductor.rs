@@ -4,6 +4,7 @@
 //! with Kirchhoff's transform, `theta(T)`, the integral of k. With the mean `(theta2 - theta1)/(T2 - T1)` on every
 //! link, one-dimensional steady states are exact at the points, however steep k(T) is.
 
+use quadrature::THREE;
 use run::property::{Arguments, Curve, OutOfRange};
 
 /// Intervals of the table over the range of temperature at the start.
@@ -12,12 +13,6 @@ const INTERVALS: f64 = 2048.0;
 const DOUBLINGS: f64 = 50.0;
 /// Part of an interval within which conductivity is that of the middle.
 const BLUR: f64 = 1e-6;
-/// Nodes and weights of Gauss' rule on [0, 1], three points.
-const GAUSS: [(f64, f64); 3] = [
-    (0.112_701_665_379_258_3, 5.0 / 18.0),
-    (0.5, 8.0 / 18.0),
-    (0.887_298_334_620_741_7, 5.0 / 18.0),
-];
 
 /// k(T) and its integral, tabulated. Nodes stand at whole multiples of the interval from the first temperature, in the
 /// first range and as far again on both sides. Beyond that intervals double each time the way from the first range has
@@ -192,7 +187,7 @@ impl Conductor {
     /// The integral over the interval that follows a node.
     fn integrate(&self, node: i64) -> Result<f64, OutOfRange> {
         let mut sum = 0.0;
-        for (at, weight) in GAUSS {
+        for (at, weight) in THREE {
             let t = self.temperature(node as f64 + at);
             sum += weight * self.curve.at_temperature(t)?;
         }

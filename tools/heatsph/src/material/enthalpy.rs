@@ -8,6 +8,7 @@
 //! samples. Cells of the table stand at places that depend on the first range of temperature alone, so that a table that
 //! was widened in many steps holds the same numbers as one that was widened in one.
 
+use quadrature::THREE;
 use run::property::{Arguments, OutOfRange};
 
 use super::volumetric::Volumetric;
@@ -30,12 +31,6 @@ const SHRINKS: f64 = 0.75;
 const NOTHING: f64 = 1e-3;
 /// Most knots of a cell.
 const MOST: usize = 50_000;
-/// Nodes and weights of Gauss' rule on [0, 1], three points.
-const GAUSS: [(f64, f64); 3] = [
-    (0.112_701_665_379_258_3, 5.0 / 18.0),
-    (0.5, 8.0 / 18.0),
-    (0.887_298_334_620_741_7, 5.0 / 18.0),
-];
 /// Iterations within an interval.
 const ITERATIONS: usize = 80;
 
@@ -223,7 +218,7 @@ impl Enthalpy {
             return Ok(found);
         }
         let mut least = self.law.value(begin)?.min(self.law.value(end)?);
-        for (s, _) in GAUSS {
+        for (s, _) in THREE {
             least = least.min(self.law.value(begin + s * (end - begin))?);
         }
         // No peak that a sample happens to meet may loosen what is tolerated.
@@ -256,7 +251,7 @@ impl Enthalpy {
 
     fn gauss(&self, a: f64, b: f64) -> Result<f64, OutOfRange> {
         let mut sum = 0.0;
-        for (s, weight) in GAUSS {
+        for (s, weight) in THREE {
             sum += weight * self.law.value(a + s * (b - a))?;
         }
         Ok(sum * (b - a))

@@ -11,21 +11,12 @@
 //! flux of layered materials continuous (Cleary and Monaghan 1999; Rong and Kisu 2010, below eq. 4); for
 //! conductivities that vary along the flow it is exact in one dimension, wherever interfaces lie.
 
+use quadrature::{THREE, TWO};
 use run::property::{Arguments, OutOfRange};
 
 use super::{Law, Materials, arguments};
 use shapes::frame::{Vector, along, difference};
 
-/// Gauss' points on [0, 1].
-const TWO: [(f64, f64); 2] = [
-    (0.211_324_865_405_187_13, 0.5),
-    (0.788_675_134_594_812_9, 0.5),
-];
-const THREE: [(f64, f64); 3] = [
-    (0.112_701_665_379_258_3, 5.0 / 18.0),
-    (0.5, 8.0 / 18.0),
-    (0.887_298_334_620_741_7, 5.0 / 18.0),
-];
 /// Two and three points that differ by more than this part call for many.
 const ROUGH: f64 = 1e-3;
 /// The many.

@@ -3,6 +3,7 @@
 //! Gauss' rule of two points along each direction is exact for cubics. Where bounds of the property over the piece are
 //! far wider than what these points see, something hides between them: the piece is divided until nothing can.
 
+use quadrature::HALF_SPREAD;
 use run::property::{Arguments, Bounds, Curve, OutOfRange};
 
 use crate::material::arguments;
@@ -19,8 +20,6 @@ const RULE: f64 = 0.1;
 /// Most parts of a piece, and most rounds of division.
 const MOST: usize = 20_000;
 const ROUNDS: usize = 48;
-/// Points of Gauss' rule on [-1, 1].
-const GAUSS: f64 = 0.577_350_269_189_625_8;
 
 /// A parallelogram or parallelepiped, `centre + sum s_k half_k` with `s_k` from -1 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -205,7 +204,7 @@ impl Part {
         let (mut above, mut below, mut low, mut high) = (0.0, 0.0, middle, middle);
         let count = 1 << piece.rank;
         for signs in 0..count {
-            let v = value(piece.part(signs, GAUSS))?;
+            let v = value(piece.part(signs, HALF_SPREAD))?;
             above += v.max(0.0);
             below += v.min(0.0);
             (low, high) = (low.min(v), high.max(v));

@@ -4,7 +4,7 @@
 //! along angles, where these are as exact. What is smooth on each face is integrated to a power of the spacing that grows
 //! with the number of places. Other surfaces are summed over the middles of their pieces, to second order.
 
-use std::f64::consts::PI;
+use quadrature::gauss;
 
 use crate::body::{Body, Kind, Primitive};
 use crate::face::faces;
@@ -72,44 +72,10 @@ fn even(count: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Nodes and weights of the rule of Gauss and Legendre on -1 to 1, which is exact for polynomials of degree
-/// `2 count - 1`: `w = 2 / ((1 - x^2) P_n'(x)^2)` at the zeros of `P_n` (Abramowitz and Stegun 1964, eq. 25.4.29), by
-/// Newton's iteration.
-///
-/// ```
-/// let rule = shapes::rule::gauss(3);
-/// let sum: f64 = rule.iter().map(|(x, w)| w * x.powi(4)).sum();
-/// assert!((sum - 0.4).abs() < 1e-15);
-/// ```
-#[must_use]
-pub fn gauss(count: usize) -> Vec<(f64, f64)> {
-    let n = count as f64;
-    let node = |k: usize| {
-        let mut x = -(PI * (k as f64 + 0.75) / (n + 0.5)).cos();
-        // The guess is near enough for six doublings of its digits.
-        for _ in 0..6 {
-            let (value, slope) = legendre(count, x);
-            x -= value / slope;
-        }
-        let (_, slope) = legendre(count, x);
-        (x, 2.0 / ((1.0 - x * x) * slope * slope))
-    };
-    (0..count).map(node).collect()
-}
-
-/// `P_n` and its slope, from `n P_n = (2n-1) x P_(n-1) - (n-1) P_(n-2)`.
-fn legendre(count: usize, x: f64) -> (f64, f64) {
-    let (mut before, mut now) = (1.0, x);
-    for k in 2..=count {
-        let n = k as f64;
-        (before, now) = (now, ((2.0 * n - 1.0) * x * now - (n - 1.0) * before) / n);
-    }
-    let n = count as f64;
-    (now, n * (x * now - before) / (x * x - 1.0))
-}
-
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
     use crate::frame::dot;
     use crate::surface::{closure, enclosed};
@@ -120,22 +86,6 @@ mod tests {
             3,
             spacing,
         )
-    }
-
-    #[test]
-    fn gauss_is_exact_to_its_degree() {
-        for count in [1, 2, 7, 40] {
-            let rule = gauss(count);
-            for power in 0..2 * count as i32 {
-                let sum: f64 = rule.iter().map(|(x, w)| w * x.powi(power)).sum();
-                let exact = if power % 2 == 0 {
-                    2.0 / f64::from(power + 1)
-                } else {
-                    0.0
-                };
-                assert!((sum - exact).abs() < 1e-14, "{count} {power}: {sum}");
-            }
-        }
     }
 
     #[test]

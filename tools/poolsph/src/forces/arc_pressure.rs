@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use steps::Figure;
 
 use crate::near::Role;
+use crate::mean;
 use crate::patch::{self, Patches};
 use crate::source::Place;
 use crate::source::arc::Radial;
@@ -71,7 +72,7 @@ impl Pressure {
                     time,
                     ..Arguments::default()
                 };
-                let mean = curve.mean_in_time(&at, dt);
+                let mean = mean::in_time(curve, &at, dt);
                 mean.map_err(|fault| StageError::Data(format!("pressure of the arc: {fault}")))
             }
         }

@@ -11,6 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::near::Role;
+use crate::mean;
 use crate::patch::{self, Patches};
 use crate::stage::{Stage, StageError};
 use crate::state::State;
@@ -56,8 +57,7 @@ impl SurfaceStress {
         let at = Arguments::at(x, time);
         let (mut stress, mut all) = ([0.0; 3], true);
         for (component, curve) in stress.iter_mut().zip(&self.stress) {
-            let (mean, found) = curve
-                .mean_in_time(&at, dt)
+            let (mean, found) = mean::in_time(curve, &at, dt)
                 .map_err(|fault| StageError::Data(format!("stress on the surface: {fault}")))?;
             (*component, all) = (mean, all && found);
         }

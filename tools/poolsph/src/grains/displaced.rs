@@ -12,8 +12,8 @@
 
 use kernels::CubicSpline;
 use particles::Matter;
+use quadrature::gauss;
 use rayon::prelude::*;
-use shapes::rule::gauss;
 use steps::Figure;
 
 use super::Mirrors;

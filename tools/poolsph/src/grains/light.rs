@@ -19,6 +19,7 @@ use shapes::surface::Piece;
 use steps::Figure;
 
 use super::pressure::Pressed;
+use crate::mean;
 
 /// Stefan and Boltzmann's constant \[W/(m2 K4)\].
 const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
@@ -136,7 +137,7 @@ impl Lighting {
         self.falls = [0.0; 2];
         for (light, wall) in walls {
             let at = Arguments::at([0.0; 3], time);
-            let (power, found) = light.power.mean_in_time(&at, dt)?;
+            let (power, found) = mean::in_time(&light.power, &at, dt)?;
             self.missed |= !found;
             let borne = || {
                 let pieces = wall.pieces();

@@ -7,6 +7,7 @@ use run::property::{Arguments, Curve};
 
 use super::cathode::Emitter;
 use super::film::Film;
+use crate::mean;
 use crate::stage::StageError;
 
 /// Distance from the axis within which a formula is taken as its mean over squares, in spacings.
@@ -55,7 +56,7 @@ impl Flux {
                     time,
                     ..Arguments::default()
                 };
-                let mean = curve.mean_in_time(&at, dt);
+                let mean = mean::in_time(curve, &at, dt);
                 return mean
                     .map_err(|fault| StageError::Data(format!("heat flux of the arc: {fault}")));
             }

@@ -7,17 +7,10 @@
 //! Q^(1,s) = 1/(s+1)! integral of Q_m(x kT) x^(s+1) e^-x dx from 0 to infinity,   s = 1 ... 5.
 //! ```
 
+use quadrature::SIX;
+
 use super::FIRST_ORDERS;
 
-/// Nodes and weights of Gauss's quadrature over -1 to 1, six points: exact for polynomials of degree 11.
-const GAUSS: [(f64, f64); 6] = [
-    (-0.932_469_514_203_152, 0.171_324_492_379_170_35),
-    (-0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
-    (-0.238_619_186_083_196_9, 0.467_913_934_572_691),
-    (0.238_619_186_083_196_9, 0.467_913_934_572_691),
-    (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
-    (0.932_469_514_203_152, 0.171_324_492_379_170_35),
-];
 /// Where the Maxwellian has died: `x^6 e^-x / 6!` is below 1e-12 of its peak.
 const TAIL: f64 = 60.0;
 /// No step of the quadrature is longer than this in x.
@@ -51,7 +44,7 @@ pub(super) fn moments(
 
 fn add(sums: &mut [f64; FIRST_ORDERS], area: &impl Fn(f64) -> f64, [from, to]: [f64; 2]) {
     let half = 0.5 * (to - from);
-    for (node, weight) in GAUSS {
+    for (node, weight) in SIX {
         let x = from + half * (1.0 + node);
         let mut term = half * weight * area(x) * (-x).exp() * x;
         for sum in sums.iter_mut() {

@@ -1,7 +1,6 @@
 //! Properties as a person states them: a number, a table over temperature, or an expression.
 
 mod expression;
-mod moment;
 mod operation;
 mod parser;
 mod range;

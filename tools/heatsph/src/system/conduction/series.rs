@@ -1,5 +1,6 @@
 //! Links through materials of any kind.
 
+use quadrature::TWO;
 use run::property::{Curve, OutOfRange};
 
 use super::Ends;
@@ -7,9 +8,6 @@ use super::edges::Edges;
 use crate::material::{Law, Materials, arguments};
 use crate::operator::Links;
 use shapes::frame::Vector;
-
-/// Gauss' points on [0, 1].
-const TWO: [f64; 2] = [0.211_324_865_405_187_13, 0.788_675_134_594_812_9];
 
 /// A piece of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,7 +131,7 @@ impl Series {
             }
             Some(curve) => {
                 let [a, b] = ends.temperature;
-                let each = TWO.map(|s| self.formula(curve, piece, a + s * (b - a)));
+                let each = TWO.map(|(s, _)| self.formula(curve, piece, a + s * (b - a)));
                 0.5 * (each[0] + each[1])
             }
         }

@@ -4,7 +4,8 @@
 //! points and two halves agree with the whole. A part that holds many pulses can pass both by chance: two values make few
 //! different sums. So a part counts only where the property varies less in each of its eighths than in the whole.
 
-use super::{Arguments, Curve, OutOfRange};
+use quadrature::THREE;
+use run::property::{Arguments, Curve, OutOfRange};
 
 /// Error of the mean, over that of the magnitude.
 const TOLERANCE: f64 = 1e-4;
@@ -19,12 +20,6 @@ const LESS: f64 = 0.6;
 /// Most parts of a stretch, and most rounds of halving.
 const MOST: usize = 4096;
 const ROUNDS: usize = 64;
-/// Nodes and weights of Gauss' rule on [0, 1], three points.
-const GAUSS: [(f64, f64); 3] = [
-    (0.112_701_665_379_258_3, 5.0 / 18.0),
-    (0.5, 8.0 / 18.0),
-    (0.887_298_334_620_741_7, 5.0 / 18.0),
-];
 
 /// A part of the stretch: its begin and length as parts of it, its mean times its length, and the error of that.
 #[derive(Clone, Copy)]
@@ -36,68 +31,68 @@ struct Part {
     error: f64,
 }
 
-impl Curve {
-    /// The mean over `length` \[s\] from the time of `at` on, and whether all of it was found.
-    ///
-    /// # Errors
-    /// As [`Curve::value`].
-    ///
-    /// ```
-    /// # use run::property::{Arguments, Property};
-    /// let pulse: Property = serde_json::from_str(r#"{"expr": "1e9*exp(-((t - 0.123)/1e-7)^2)"}"#).unwrap();
-    /// let curve = pulse.compile("/flux", &["t"]).unwrap();
-    /// let (mean, found) = curve.mean_in_time(&Arguments::default(), 1.0).unwrap();
-    /// assert!(found && (mean / (100.0 * std::f64::consts::PI.sqrt()) - 1.0).abs() < 1e-3);
-    /// ```
-    pub fn mean_in_time(&self, at: &Arguments, length: f64) -> Result<(f64, bool), OutOfRange> {
-        if !self.depends_on("t") {
-            return Ok((self.value(at)?, true));
-        }
-        let mut parts = vec![self.part(at, length, 0.0, 1.0)?];
-        let ends = [0.0, 1.0].map(|s| moved(at, s * length));
-        let most = self.bounds(&ends[0], &ends[1]).most();
-        let nothing = if most.is_finite() {
-            NOTHING * most
-        } else {
-            0.0
-        };
-        let mut found = false;
-        for _ in 0..ROUNDS {
-            let gross: f64 = parts.iter().map(|p| p.gross).sum();
-            let error: f64 = parts.iter().map(|p| p.error).sum();
-            let wanted = TOLERANCE * gross + nothing;
-            found = error <= wanted;
-            if found || parts.len() > MOST {
-                break;
-            }
-            let least = 0.5 * wanted / parts.len() as f64;
-            let mut next = Vec::with_capacity(2 * parts.len());
-            for part in parts {
-                if part.error <= least {
-                    next.push(part);
-                    continue;
-                }
-                let half = 0.5 * part.length;
-                next.push(self.part(at, length, part.begin, half)?);
-                next.push(self.part(at, length, part.begin + half, half)?);
-            }
-            parts = next;
-        }
-        Ok((parts.iter().map(|p| p.sum).sum(), found))
+/// The mean of `curve` over `length` \[s\] from the time of `at` on, and whether all of it was found.
+///
+/// # Errors
+/// As [`Curve::value`].
+///
+/// ```
+/// # use run::property::{Arguments, Property};
+/// let pulse: Property = serde_json::from_str(r#"{"expr": "1e9*exp(-((t - 0.123)/1e-7)^2)"}"#).unwrap();
+/// let curve = pulse.compile("/flux", &["t"]).unwrap();
+/// let (mean, found) = poolsph::mean::in_time(&curve, &Arguments::default(), 1.0).unwrap();
+/// assert!(found && (mean / (100.0 * std::f64::consts::PI.sqrt()) - 1.0).abs() < 1e-3);
+/// ```
+pub fn in_time(curve: &Curve, at: &Arguments, length: f64) -> Result<(f64, bool), OutOfRange> {
+    if !curve.depends_on("t") {
+        return Ok((curve.value(at)?, true));
     }
+    let mut parts = vec![Part::new(curve, at, length, 0.0, 1.0)?];
+    let ends = [0.0, 1.0].map(|s| moved(at, s * length));
+    let most = curve.bounds(&ends[0], &ends[1]).most();
+    let nothing = if most.is_finite() {
+        NOTHING * most
+    } else {
+        0.0
+    };
+    let mut found = false;
+    for _ in 0..ROUNDS {
+        let gross: f64 = parts.iter().map(|p| p.gross).sum();
+        let error: f64 = parts.iter().map(|p| p.error).sum();
+        let wanted = TOLERANCE * gross + nothing;
+        found = error <= wanted;
+        if found || parts.len() > MOST {
+            break;
+        }
+        let least = 0.5 * wanted / parts.len() as f64;
+        let mut next = Vec::with_capacity(2 * parts.len());
+        for part in parts {
+            if part.error <= least {
+                next.push(part);
+                continue;
+            }
+            let half = 0.5 * part.length;
+            next.push(Part::new(curve, at, length, part.begin, half)?);
+            next.push(Part::new(curve, at, length, part.begin + half, half)?);
+        }
+        parts = next;
+    }
+    Ok((parts.iter().map(|p| p.sum).sum(), found))
+}
 
-    fn part(
-        &self,
+impl Part {
+    fn new(
+        curve: &Curve,
         at: &Arguments,
         whole: f64,
         begin: f64,
         length: f64,
-    ) -> Result<Part, OutOfRange> {
-        let value = |s: f64| self.value(&moved(at, whole * (begin + s * length)));
+    ) -> Result<Self, OutOfRange> {
+        let value = |s: f64| curve.value(&moved(at, whole * (begin + s * length)));
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let mut gauss = |from: f64, to: f64| -> Result<(f64, f64), OutOfRange> {
             let mut sum = (0.0, 0.0);
-            for (s, weight) in GAUSS {
+            for (s, weight) in THREE {
                 let v = value(from + s * (to - from))?;
                 (low, high) = (low.min(v), high.max(v));
                 sum = (sum.0 + weight * v, sum.1 + weight * v.abs());
@@ -109,7 +104,7 @@ impl Curve {
         let sum = halves[0].0 + halves[1].0;
         let between = |from: f64, to: f64| {
             let [from, to] = [from, to].map(|s| moved(at, whole * (begin + s * length)));
-            self.bounds(&from, &to)
+            curve.bounds(&from, &to)
         };
         let bounds = between(0.0, 1.0);
         let nothing = 1e-12 * bounds.most();
@@ -123,7 +118,7 @@ impl Curve {
         } else {
             bounds.width().min(f64::MAX)
         };
-        Ok(Part {
+        Ok(Self {
             begin,
             length,
             sum: length * sum,
@@ -143,8 +138,8 @@ fn moved(at: &Arguments, by: f64) -> Arguments {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Property;
     use super::*;
+    use run::property::Property;
 
     #[test]
     fn many_square_pulses_have_their_mean() {
@@ -172,7 +167,7 @@ mod tests {
                     time: 1e-3 * f64::from(step),
                     ..Arguments::default()
                 };
-                let (mean, found) = curve.mean_in_time(&from, 1e-3).unwrap();
+                let (mean, found) = in_time(&curve, &from, 1e-3).unwrap();
                 sum += 0.1 * mean;
                 all &= found;
             }
@@ -200,7 +195,7 @@ mod tests {
             let property: Property =
                 serde_json::from_str(&format!(r#"{{"expr": "{text}"}}"#)).unwrap();
             let curve = property.compile("/q", &["t"]).unwrap();
-            let (mean, found) = curve.mean_in_time(&from, 0.5).unwrap();
+            let (mean, found) = in_time(&curve, &from, 0.5).unwrap();
             assert!(
                 found && (mean - exact).abs() <= 1e-3 * exact,
                 "{text}: {mean}"
