@@ -17,6 +17,7 @@
 //! assert!(kernel.value(0.0) > 0.0 && kernel.value(1.0e-3) == 0.0);
 //! ```
 
+pub mod moments;
 mod number;
 mod wendland;
 

@@ -17,9 +17,10 @@
 //! Where a pair is too close, in a crowd as well, what it still approaches is damped alike, and its particles are moved
 //! apart. Forces act along the line of a pair: momentum and angular momentum are kept.
 
+use kernels::moments::within;
 use particles::Matter;
 
-use super::filled::{Filled, within};
+use super::filled::Filled;
 use super::openness::lack;
 use crate::forces::tension::mean_field;
 use crate::near::{Near, Role};

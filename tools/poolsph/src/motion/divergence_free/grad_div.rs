@@ -12,7 +12,9 @@
 //! symmetric and not negative, energy can only fall. Momentum and angular momentum are kept: D of a translation or a
 //! rotation is zero.
 
-use super::operators::{Sums, times};
+use kernels::moments::{Moments, times};
+
+use super::operators::Sums;
 use crate::near::{Near, Role};
 use crate::vector::{dot, minus, plus};
 
@@ -25,7 +27,7 @@ pub(super) struct GradDiv {
     /// u, images included \[m/s\], `[m + images]`.
     moved: Vec<[f64; 3]>,
     /// (D u) B: xx, yy, zz, xy, xz, yz \[m3/s\], `[m + images]`.
-    stretched: Vec<[f64; 6]>,
+    stretched: Vec<Moments>,
     change: Vec<[f64; 3]>,
 }
 

@@ -46,6 +46,7 @@ mod shift;
 mod traction;
 mod weight;
 
+use kernels::moments::times;
 use particles::Matter;
 use rayon::prelude::*;
 
@@ -63,7 +64,7 @@ use self::filled::Filled;
 use self::grad_div::GradDiv;
 use self::islands::Islands;
 use self::normals::Normals;
-use self::operators::{Sums, times};
+use self::operators::Sums;
 use self::poisson::Poisson;
 use self::pull::Pull;
 use self::ripples::Ripples;

@@ -6,7 +6,9 @@
 //! the surface where another stands before it, across a gap of less than a particle (the cone of Marrone et al. 2010). What
 //! lacks a third and more is open all around: drops of few particles, films and jets.
 
-use super::filled::{Filled, within};
+use kernels::moments::within;
+
+use super::filled::Filled;
 use crate::near::{Near, Row};
 use crate::vector::{dot, minus, squared};
 

@@ -21,7 +21,9 @@
 //! Where tension acts a layer is one spacing thick, and m that of the lattice. Where particles lie scattered B means little,
 //! and the lattice's stands for it.
 
-use super::filled::{Filled, within};
+use kernels::moments::{Moments, beyond, inverse, within};
+
+use super::filled::Filled;
 use super::openness::{lack, open};
 use crate::near::{Near, Row};
 use crate::vector::{dot, minus, plus, squared};
@@ -54,11 +56,11 @@ pub(super) struct Sums {
     /// How far away what is missing stands \[m\].
     pub(super) layer: f64,
     /// B of the gradient of p, what is missing included: xx, yy, zz, xy, xz, yz \[m3\].
-    pub(super) inverse: [f64; 6],
+    pub(super) inverse: Moments,
     /// B of the present neighbours alone \[m3\].
-    pub(super) present: [f64; 6],
+    pub(super) present: Moments,
     /// B of div u \[m3\].
-    shared: [f64; 6],
+    shared: Moments,
     /// Mean moment along an axis, what is missing included \[1/m3\].
     pub(super) moment: f64,
     /// div u \[1/s\].
@@ -85,19 +87,9 @@ impl Sums {
     }
 }
 
-/// B x for a symmetric B.
-#[inline(always)]
-pub(super) fn times([a, b, c, d, e, f]: [f64; 6], [x, y, z]: [f64; 3]) -> [f64; 3] {
-    [
-        a * x + d * y + e * z,
-        d * x + b * y + f * z,
-        e * x + f * y + c * z,
-    ]
-}
-
 /// B M for a symmetric B.
 #[inline(always)]
-fn multiplied([a, b, c, d, e, f]: [f64; 6], [x, y, z]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+fn multiplied([a, b, c, d, e, f]: Moments, [x, y, z]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     let row = |p: f64, q: f64, r: f64| std::array::from_fn(|i| p * x[i] + q * y[i] + r * z[i]);
     [row(a, d, e), row(d, b, f), row(e, f, c)]
 }
@@ -120,7 +112,7 @@ impl Sums {
         let (fill, tense) = (all / filled.weight, !near.tension.is_empty());
         let part = within(1.0 - fill, LACKS);
         let missing = part * (filled.weight - all).max(0.0);
-        let present = filled.inverse(moments, within(fill, TRUST));
+        let present = inverse(moments, filled.moment, within(fill, TRUST));
         let mut sums = Self {
             liquid,
             missing,
@@ -148,8 +140,8 @@ impl Sums {
                 sums.layer = floor.depth;
                 deep = within(floor.deep, DEEP);
             }
-            beyond(&mut moments, sums.open, missing, sums.layer);
-            sums.inverse = filled.inverse(moments, within(fill, TRUST));
+            beyond::<3>(&mut moments, sums.open, missing, sums.layer);
+            sums.inverse = inverse(moments, filled.moment, within(fill, TRUST));
             sums.shared =
                 std::array::from_fn(|i| deep * present[i] + (1.0 - deep) * sums.inverse[i]);
         }
@@ -215,17 +207,4 @@ fn beneath(near: &Near, a: usize, row: Row<'_>, inwards: [f64; 3], filled: Fille
         found.deep = inside / weight;
     }
     found
-}
-
-/// Adds the moments of what is missing: all of it `d` away, along `open` as far as that tells, evenly around
-/// for the rest.
-fn beyond(moments: &mut [f64; 6], open: [f64; 3], missing: f64, d: f64) {
-    let size = squared(open).sqrt();
-    let across = if size > 0.0 { d / size } else { 0.0 };
-    let around = ((missing * d - size) * d).max(0.0) / 3.0;
-    let [x, y, z] = open;
-    let added = [x * x, y * y, z * z, x * y, x * z, y * z];
-    for (i, (moment, added)) in moments.iter_mut().zip(added).enumerate() {
-        *moment += across * added + if i < 3 { around } else { 0.0 };
-    }
 }

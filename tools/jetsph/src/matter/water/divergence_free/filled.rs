@@ -2,9 +2,6 @@
 
 use kernels::Kernel;
 
-/// Determinant of the moments, over that of the lattice's, up to which they span no space, and from which on they do.
-const SPANNED: [f64; 2] = [0.05, 0.20];
-
 /// Sums over the filled lattice, each particle counting by its volume.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Filled {
@@ -50,42 +47,4 @@ impl Filled {
         filled.beside /= side;
         filled
     }
-
-    /// The inverse of moments that are the row's own in `part`, and the lattice's for the rest; the lattice's, too, where
-    /// the row's own are those of a plane or line.
-    pub(super) fn inverse(&self, moments: [f64; 6], part: f64) -> [f64; 6] {
-        let spanned = determinant(moments, minors(moments)) / self.moment.powi(3);
-        let part = part * within(spanned, SPANNED);
-        let lattice = |i: usize| if i < 3 { self.moment } else { 0.0 };
-        inverse(std::array::from_fn(|i| {
-            part * moments[i] + (1.0 - part) * lattice(i)
-        }))
-    }
-}
-
-/// Inverse of a symmetric matrix.
-fn inverse(matrix: [f64; 6]) -> [f64; 6] {
-    let minors = minors(matrix);
-    let determinant = determinant(matrix, minors);
-    minors.map(|x| x / determinant)
-}
-
-fn minors([a, b, c, d, e, f]: [f64; 6]) -> [f64; 6] {
-    [
-        b * c - f * f,
-        a * c - e * e,
-        a * b - d * d,
-        e * f - d * c,
-        d * f - e * b,
-        d * e - a * f,
-    ]
-}
-
-fn determinant([a, _, _, d, e, _]: [f64; 6], minors: [f64; 6]) -> f64 {
-    a * minors[0] + d * minors[3] + e * minors[4]
-}
-
-/// How far `x` is on its way through a range, 0 to 1.
-pub(super) fn within(x: f64, [from, to]: [f64; 2]) -> f64 {
-    ((x - from) / (to - from)).clamp(0.0, 1.0)
 }

@@ -15,8 +15,9 @@
 //! scattered B means little, and the lattice's stands for it.
 
 use kernels::Kernel;
+use kernels::moments::{Moments, beyond, inverse, times, within};
 
-use super::filled::{Filled, within};
+use super::filled::Filled;
 use crate::matter::water::around::Around;
 use crate::matter::water::seen::Seen;
 
@@ -41,7 +42,7 @@ pub(super) struct Sums {
     /// The part of it that is the surface's; zero in the inside \[1/m\].
     pub(super) open: [f64; 3],
     /// B: xx, yy, zz, xy, xz, yz \[1\].
-    pub(super) inverse: [f64; 6],
+    pub(super) inverse: Moments,
     /// Mean moment along an axis, what is missing included \[1\].
     pub(super) moment: f64,
     /// Sum of V W, the own one included \[1\].
@@ -79,22 +80,12 @@ pub(super) fn is_led(seen: &Seen) -> bool {
     seen.value > 0.0
 }
 
-/// B x for a symmetric B.
-#[inline(always)]
-pub(super) fn times([a, b, c, d, e, f]: [f64; 6], [x, y, z]: [f64; 3]) -> [f64; 3] {
-    [
-        a * x + d * y + e * z,
-        d * x + b * y + f * z,
-        e * x + f * y + c * z,
-    ]
-}
-
 /// What is gathered over a row.
 #[derive(Debug, Clone, Copy, Default)]
 struct Gathered {
     all: f64,
     sums: Sums,
-    moments: [f64; 6],
+    moments: Moments,
     change: [[f64; 3]; 3],
 }
 
@@ -177,23 +168,11 @@ impl Gathered {
         if D == 2 {
             moments[2] = filled.moment;
         }
-        sums.inverse = filled.inverse(moments, within(sums.fill, TRUST));
+        sums.inverse = inverse(moments, filled.moment, within(sums.fill, TRUST));
         // grad u = B change, by columns.
         let columns = [0, 1, 2].map(|i| times(sums.inverse, change.map(|row| row[i])));
         sums.slope = [0, 1, 2].map(|k| columns.map(|column| column[k]));
         sums.divergence = (0..D).map(|k| sums.slope[k][k]).sum();
         sums
-    }
-}
-
-/// Adds the moments of what is missing: all of it `d` away, along `open` as far as that tells, evenly around for the rest.
-fn beyond<const D: usize>(moments: &mut [f64; 6], open: [f64; 3], missing: f64, d: f64) {
-    let [x, y, z] = open;
-    let size = (x * x + y * y + z * z).sqrt();
-    let across = if size > 0.0 { d / size } else { 0.0 };
-    let around = ((missing * d - size) * d).max(0.0) / D as f64;
-    let added = [x * x, y * y, z * z, x * y, x * z, y * z];
-    for (i, (moment, added)) in moments.iter_mut().zip(added).enumerate() {
-        *moment += across * added + if i < D { around } else { 0.0 };
     }
 }

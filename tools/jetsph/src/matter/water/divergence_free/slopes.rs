@@ -1,12 +1,13 @@
 //! What a pressure does: the slopes at free water, and the forces across walls and exits of nozzles.
 
 use kernels::Kernel;
+use kernels::moments::times;
 use particles::sweep;
 use rayon::prelude::*;
 
 use super::DivergenceFree;
 use super::bodies::Forces;
-use super::operators::{is_led, times};
+use super::operators::is_led;
 
 impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
     /// The pressure that water led by a nozzle seems to have: p + rho f.(x_w - x_b), the mean over free neighbours b (Adami, Hu and

@@ -1,10 +1,11 @@
 //! Operators on clouds in disorder, where what they should give is known.
 
 use kernels::Wendland;
+use kernels::moments::times;
 use shapes::Body;
 
 use super::filled::Filled;
-use super::operators::{Sums, times};
+use super::operators::Sums;
 use crate::matter::water::around::Around;
 use crate::matter::water::seen::Seen;
 
