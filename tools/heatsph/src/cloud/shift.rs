@@ -3,16 +3,11 @@
 use super::Cloud;
 use super::points::Points;
 use shapes::frame::Vector;
+use shapes::jitter::signed;
 
-/// A number in [-1, 1) from a seed and two counters (the mixing of Steele, Lea and Flood 2014, "SplitMix").
+/// A number from -1 to 1 from a seed and two counters.
 fn random(seed: u64, point: u64, axis: u64) -> f64 {
-    let mut z = seed
-        .wrapping_mul(0xD6E8_FEB8_6659_FD93)
-        .wrapping_add((3 * point + axis + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^= z >> 31;
-    (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    signed(seed.wrapping_mul(0xD6E8_FEB8_6659_FD93), 3 * point + axis)
 }
 
 /// The place of point `number` after its shift.

@@ -1,6 +1,7 @@
 //! Places of particles in a body.
 
 use shapes::frame::Frame;
+use shapes::jitter::signed;
 use shapes::{Body, Kind};
 
 /// Most particles of a body.
@@ -108,7 +109,11 @@ impl Lattice {
                         let number = self.places.len();
                         let shaken = |axis: usize| {
                             let free = axis < filling.dimensions && filling.jitter > 0.0;
-                            let part = if free { noise(3 * number + axis) } else { 0.0 };
+                            let part = if free {
+                                signed(0, (3 * number + axis) as u64)
+                            } else {
+                                0.0
+                            };
                             own[axis] + filling.jitter * self.cell[axis] * part
                         };
                         self.places.push(self.frame.place([0, 1, 2].map(shaken)));
@@ -203,18 +208,6 @@ pub fn cross_section(width: f64, spacing: f64, dimensions: usize) -> (Vec<[f64; 
     let stretch = (area / (places.len() as f64 * spacing * spacing)).sqrt();
     let stretched = places.iter().map(|place| place.map(|x| stretch * x));
     (stretched.collect(), area)
-}
-
-/// A number between -1 and 1 that looks like chance and is always the same (splitmix64).
-#[must_use]
-pub fn noise(number: usize) -> f64 {
-    let mut z = (number as u64)
-        .wrapping_add(1)
-        .wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^= z >> 31;
-    (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
 #[cfg(test)]

@@ -6,7 +6,8 @@
 //! - [`ellipsoid`] finds the nearest place of an ellipsoid, [`mesh`] that of a closed surface of triangles;
 //! - [`surface`] divides the surface into pieces with area and normal, [`rule`] knows places and weights of integrals
 //!   over it;
-//! - [`frame`] holds the little vector algebra that all of them need.
+//! - [`frame`] holds the little vector algebra that all of them need;
+//! - [`jitter`] shakes places.
 
 pub mod body;
 pub mod check;
@@ -14,6 +15,7 @@ pub mod edges;
 pub mod ellipsoid;
 mod face;
 pub mod frame;
+pub mod jitter;
 pub mod mesh;
 pub mod rule;
 pub mod shape;

@@ -4,6 +4,7 @@ use particles::{Ids, Matter, POSITION, Set};
 use run::Fault;
 use shapes::check;
 use shapes::frame::{along, cross, difference, scaled};
+use shapes::jitter::signed;
 use shapes::{Body, Shape};
 
 use super::parameters::{GrainBody, Parameters};
@@ -152,7 +153,7 @@ impl GrainBody {
                     if body.distance(place) <= -reach {
                         let number = 3 * places.len();
                         places.push(std::array::from_fn(|axis| {
-                            place[axis] + self.jitter * spacing * noise(number + axis)
+                            place[axis] + self.jitter * spacing * signed(0, (number + axis) as u64)
                         }));
                     }
                 }
@@ -253,17 +254,6 @@ pub fn radii(set: &Set) -> [f64; 2] {
     radii.fold([f64::INFINITY, 0.0], |[least, widest], r| {
         [least.min(*r), widest.max(*r)]
     })
-}
-
-/// A number between -1 and 1 that looks like chance and is always the same (splitmix64).
-fn noise(number: usize) -> f64 {
-    let mut z = (number as u64)
-        .wrapping_add(1)
-        .wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^= z >> 31;
-    (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use shapes::frame::{Vector, along, cross, difference, direction, dot, length};
+use shapes::jitter;
 use shapes::surface::{Piece, pieces};
 use shapes::{Body, Kind};
 
@@ -131,11 +132,11 @@ fn spread(pieces: &[Piece], spacing: f64, least: f64, local: &dyn Fn(Vector) -> 
     // Where points stand far apart, a few of the pieces are choice enough.
     let enough = |k: usize| {
         let part = CHOICE * (least / wanted[k]).powi(2);
-        (crate::cloud::jitter::mix(!(k as u64)) >> 11) as f64 <= part * (1_u64 << 53) as f64
+        (jitter::bits(!(k as u64), 0) >> 11) as f64 <= part * (1_u64 << 53) as f64
     };
     let mut order: Vec<(u64, usize)> = (0..pieces.len())
         .filter(|k| enough(*k))
-        .map(|k| (crate::cloud::jitter::mix(k as u64), k))
+        .map(|k| (jitter::bits(k as u64, 0), k))
         .collect();
     order.sort_unstable();
     let mut set = Occupied::new(spacing);

@@ -218,7 +218,7 @@ fn balance<const T: usize>(weights: &mut [[f64; T]], anchor: [f64; 3], dimension
 mod tests {
     use super::super::links::Links;
     use super::*;
-    use crate::matter::lattice::noise;
+    use shapes::jitter::signed;
 
     fn shaken(jitter: f64, sides: [usize; 3]) -> Vec<[f64; 3]> {
         let place = |i: usize| {
@@ -229,7 +229,7 @@ mod tests {
             ];
             let shake = |k: usize| {
                 if sides[k] > 1 {
-                    jitter * noise(3 * i + k)
+                    jitter * signed(0, (3 * i + k) as u64)
                 } else {
                     0.0
                 }

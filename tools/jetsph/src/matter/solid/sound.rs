@@ -1,10 +1,9 @@
 //! The fastest motion of a solid at rest, which bounds the step.
 
 use particles::sweep;
+use shapes::jitter::signed;
 
 use super::elastic::Elastic;
-
-use crate::matter::lattice::noise;
 
 /// Rounds in which the fastest motion is sought.
 const ROUNDS: usize = 40;
@@ -21,7 +20,7 @@ fn fastest(
 ) -> f64 {
     let part = |number: usize| {
         if number % 3 < dimensions {
-            noise(number)
+            signed(0, number as u64)
         } else {
             0.0
         }

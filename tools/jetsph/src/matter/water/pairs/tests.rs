@@ -22,7 +22,7 @@ impl Exchange<1> for Trial {
 }
 
 fn cloud(n: usize, span: f64) -> Vec<Seen> {
-    let noise = |k: usize| crate::matter::lattice::noise(k);
+    let noise = |k: usize| shapes::jitter::signed(0, k as u64);
     let each = (0..n).map(|a| Seen {
         x: [0, 1, 2].map(|k| span * noise(8 * a + k)),
         u: [3, 4, 5].map(|k| noise(8 * a + k)),
