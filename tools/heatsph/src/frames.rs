@@ -7,7 +7,6 @@ use steps::instants::{Instant, every, merged};
 use crate::march::State;
 use crate::monitor::Monitor;
 use crate::scene::Scene;
-use crate::scene::method::Precision as Wanted;
 use crate::system::storage::Storage;
 use crate::system::{Rates, System};
 
@@ -38,10 +37,7 @@ impl Output {
             outer[patch.point as usize] = 1;
         }
         Self {
-            precision: match scene.output.precision {
-                Wanted::F32 => Precision::F32,
-                Wanted::F64 => Precision::F64,
-            },
+            precision: scene.output.precision.into(),
             monitors: scene
                 .output
                 .monitors

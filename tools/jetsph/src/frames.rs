@@ -3,9 +3,9 @@
 use artefact::Frame;
 use columns::{Form, channel};
 use particles::Set;
+use run::scene::FloatWidth;
 use run::{Failure, Session};
 
-use crate::scene::FloatWidth;
 use crate::state::State;
 
 /// A set as a frame.

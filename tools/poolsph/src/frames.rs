@@ -3,11 +3,12 @@
 use artefact::Frame;
 use columns::Form;
 use particles::{ID, POSITION, Set};
+use run::scene::FloatWidth;
 use run::{Failure, Session};
 use serde::Serialize;
 
 use crate::memory;
-use crate::scene::{FloatWidth, PoolOutput, Scene};
+use crate::scene::{PoolOutput, Scene};
 use crate::state::State;
 
 /// JSON Schema of `/source`.

@@ -1,5 +1,6 @@
 //! What is written.
 
+use run::scene::FloatWidth;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use shapes::Shape;
@@ -68,33 +69,13 @@ pub struct Enclosure {
     pub spacing_m: Option<f64>,
 }
 
-/// Precision of the floats in frames.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Precision {
-    /// Four bytes.
-    #[default]
-    F32,
-    /// Eight bytes.
-    F64,
-}
-
-impl From<Precision> for artefact::Precision {
-    fn from(wanted: Precision) -> Self {
-        match wanted {
-            Precision::F32 => Self::F32,
-            Precision::F64 => Self::F64,
-        }
-    }
-}
-
 /// What is written: the fields of all points at the end, in a march at its start too, and what is asked for here.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
-    /// Precision of the frames.
+    /// Width of the floats.
     #[serde(default)]
-    pub precision: Precision,
+    pub precision: FloatWidth,
     /// Whether the points on interfaces are written as a frame of their own, with normal, area and traction.
     #[serde(default = "yes")]
     pub surface: bool,
@@ -137,7 +118,7 @@ impl Output {
 impl Default for Output {
     fn default() -> Self {
         Self {
-            precision: Precision::default(),
+            precision: FloatWidth::default(),
             surface: true,
             probes: Vec::new(),
             lines: Vec::new(),

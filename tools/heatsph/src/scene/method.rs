@@ -1,5 +1,6 @@
 //! The march in time, and what is written.
 
+use run::scene::FloatWidth;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -83,17 +84,6 @@ pub struct Monitor {
     pub place_m: Vec<f64>,
 }
 
-/// Precision of the floats in frames.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Precision {
-    /// Four bytes.
-    #[default]
-    F32,
-    /// Eight bytes.
-    F64,
-}
-
 /// What is written, and when: start and end always.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -108,9 +98,9 @@ pub struct Output {
     /// Interval of monitors and balances; that of the frames when it is absent.
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0))]
     pub monitors_every_s: Option<f64>,
-    /// Precision of the frames.
+    /// Width of the floats.
     #[serde(default)]
-    pub precision: Precision,
+    pub precision: FloatWidth,
     /// Places whose temperature is written.
     #[serde(default)]
     pub monitors: Vec<Monitor>,

@@ -8,7 +8,7 @@ mod water;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub use output::{FloatWidth, Output};
+pub use output::Output;
 pub use solid::{Clamp, ContactScene, LatticeScene, LoadScene, Solid, UpdatedForm};
 
 pub use water::{

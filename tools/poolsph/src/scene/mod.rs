@@ -21,7 +21,7 @@ pub use check::faults;
 pub use lattice::Lattice;
 pub use odd::{doubts, notes};
 pub use older::MIGRATIONS;
-pub use output::{FloatWidth, Output, PoolOutput};
+pub use output::{Output, PoolOutput};
 pub use time::{Adaptive, Time};
 
 use crate::domain::{bounds, droplet};

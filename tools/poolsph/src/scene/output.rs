@@ -1,31 +1,11 @@
 //! What a run writes, and when.
 
-use artefact::Precision;
+use run::scene::FloatWidth;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use steps::instants::next_due;
 
 use crate::probes::Probe;
-
-/// Width of the floats of frames.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum FloatWidth {
-    /// 4 bytes.
-    #[default]
-    F32,
-    /// 8 bytes.
-    F64,
-}
-
-impl From<FloatWidth> for Precision {
-    fn from(width: FloatWidth) -> Self {
-        match width {
-            FloatWidth::F32 => Self::F32,
-            FloatWidth::F64 => Self::F64,
-        }
-    }
-}
 
 /// Frames and series. A frame stands at the step nearest to its time.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

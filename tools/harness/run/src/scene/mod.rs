@@ -17,6 +17,7 @@ mod validate;
 mod wanted;
 mod whole;
 mod words;
+mod width;
 
 use std::path::{Path, PathBuf};
 
@@ -32,6 +33,7 @@ pub use sheet::{SHEET, Substance, sheet_schema};
 pub use substance::named;
 pub use suggest::nearest;
 
+pub use width::FloatWidth;
 use origin::Document;
 pub use patch::{Merged, located};
 
