@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::origin::escaped;
+use super::walk;
 use crate::fault::Fault;
 
 /// The least time between two messages of a channel \[s\].
@@ -17,31 +17,16 @@ const ENDS: [&str; 3] = ["/time/end_s", "/transient/end_s", "/liquid/march/end_s
 /// Outputs that would share one time in the file.
 pub(super) fn faults(scene: &Value) -> Vec<Fault> {
     let mut found = Vec::new();
-    walk(scene, "", &mut found);
+    walk::keys(scene, &mut |path, key, value| {
+        let ends = ENDS.iter().any(|end| path.ends_with(end));
+        let often = OFTEN.iter().any(|ending| key.ends_with(ending));
+        if often || ends {
+            found.extend(value.as_f64().and_then(|time| short(path, time)));
+        } else if key == INSTANTS {
+            found.extend(close(path, value));
+        }
+    });
     found
-}
-
-fn walk(value: &Value, at: &str, found: &mut Vec<Fault>) {
-    match value {
-        Value::Array(list) => {
-            let places = list.iter().enumerate();
-            places.for_each(|(i, value)| walk(value, &format!("{at}/{i}"), found));
-        }
-        Value::Object(map) => {
-            for (key, value) in map {
-                let path = format!("{at}/{}", escaped(key));
-                let ends = ENDS.iter().any(|end| path.ends_with(end));
-                let often = OFTEN.iter().any(|ending| key.ends_with(ending));
-                if often || ends {
-                    found.extend(value.as_f64().and_then(|time| short(&path, time)));
-                } else if key == INSTANTS {
-                    found.extend(close(&path, value));
-                }
-                walk(value, &path, found);
-            }
-        }
-        _ => {}
-    }
 }
 
 /// A time below that of two messages; the schema judges what is not above 0.

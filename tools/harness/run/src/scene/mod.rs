@@ -14,10 +14,11 @@ mod suggest;
 mod surface;
 mod twins;
 mod validate;
+mod walk;
 mod wanted;
 mod whole;
-mod words;
 mod width;
+mod words;
 
 use std::path::{Path, PathBuf};
 
@@ -32,8 +33,8 @@ pub use schema::{schema_of, schema_text};
 pub use sheet::{SHEET, Substance, sheet_schema};
 pub use substance::named;
 pub use suggest::nearest;
-
 pub use width::FloatWidth;
+
 use origin::Document;
 pub use patch::{Merged, located};
 

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::origin::escaped;
+use super::walk;
 use crate::fault::Fault;
 
 /// Endings of keys that state a temperature on the absolute scale. Other keys in K state differences, which may be
@@ -25,46 +25,22 @@ const CELSIUS: f64 = 273.15;
 /// Values that their quantity cannot have.
 pub(super) fn faults(scene: &Value) -> Vec<Fault> {
     let mut found = Vec::new();
-    walk(scene, "", false, &mut found);
+    let is_temperature =
+        |key: &str| key == OF_TABLE || TEMPERATURES.iter().any(|ending| key.ends_with(ending));
+    walk::numbers(scene, &is_temperature, &mut |at, number| {
+        let kelvin = number.as_f64().unwrap_or(f64::NAN);
+        if kelvin < 0.0 {
+            let meant = kelvin + CELSIUS;
+            let hint = if meant >= 0.0 {
+                format!("; {kelvin} degrees Celsius are {meant:.2} K")
+            } else {
+                String::new()
+            };
+            let what = format!("{number} K is out of range: at least 0 K{hint}");
+            found.push(Fault::at(at, what));
+        }
+    });
     found
-}
-
-/// Goes over a value; `absolute` says whether its numbers are temperatures.
-fn walk(value: &Value, at: &str, absolute: bool, found: &mut Vec<Fault>) {
-    match value {
-        Value::Number(number) if absolute => {
-            let kelvin = number.as_f64().unwrap_or(f64::NAN);
-            if kelvin < 0.0 {
-                let meant = kelvin + CELSIUS;
-                let hint = if meant >= 0.0 {
-                    format!("; {kelvin} degrees Celsius are {meant:.2} K")
-                } else {
-                    String::new()
-                };
-                let what = format!("{number} K is out of range: at least 0 K{hint}");
-                found.push(Fault::at(at, what));
-            }
-        }
-        Value::Array(list) => {
-            for (i, value) in list.iter().enumerate() {
-                walk(value, &format!("{at}/{i}"), absolute, found);
-            }
-        }
-        Value::Object(map) => {
-            for (key, value) in map {
-                let is_temperature = key == OF_TABLE
-                    || TEMPERATURES.iter().any(|ending| key.ends_with(ending))
-                    || (absolute && key == "value");
-                walk(
-                    value,
-                    &format!("{at}/{}", escaped(key)),
-                    is_temperature,
-                    found,
-                );
-            }
-        }
-        _ => {}
-    }
 }
 
 /// Ending of keys that state a density, and what solids and liquids have \[kg/m3\].
@@ -74,42 +50,24 @@ const CONDENSED: [f64; 2] = [30.0, 30_000.0];
 /// Values that their quantity can have and hardly has.
 pub(crate) fn doubts(scene: &Value) -> Vec<String> {
     let mut found = Vec::new();
-    doubt(scene, "", false, &mut found);
+    let is_density = |key: &str| key.ends_with(DENSITY);
+    walk::numbers(scene, &is_density, &mut |at, number| {
+        let density = number.as_f64().unwrap_or(f64::NAN);
+        let [low, high] = CONDENSED;
+        // 1 is the unit of who reckons without units.
+        if density > 0.0 && density < low && (density - 1.0).abs() > f64::EPSILON {
+            let meant = 1e3 * density;
+            found.push(format!(
+                "{at}: {number} kg/m3 is the density of a gas; {number} g/cm3 are {meant} kg/m3"
+            ));
+        } else if density > high {
+            let meant = 1e-3 * density;
+            found.push(format!(
+                "{at}: {number} kg/m3 is more than any matter has; a thousandth is {meant} kg/m3"
+            ));
+        }
+    });
     found
-}
-
-/// Goes over a value; `dense` says whether its numbers are densities.
-fn doubt(value: &Value, at: &str, dense: bool, found: &mut Vec<String>) {
-    match value {
-        Value::Number(number) if dense => {
-            let density = number.as_f64().unwrap_or(f64::NAN);
-            let [low, high] = CONDENSED;
-            // 1 is the unit of who reckons without units.
-            if density > 0.0 && density < low && (density - 1.0).abs() > f64::EPSILON {
-                let meant = 1e3 * density;
-                found.push(format!(
-                    "{at}: {number} kg/m3 is the density of a gas; {number} g/cm3 are {meant} kg/m3"
-                ));
-            } else if density > high {
-                let meant = 1e-3 * density;
-                found.push(format!(
-                    "{at}: {number} kg/m3 is more than any matter has; a thousandth is {meant} kg/m3"
-                ));
-            }
-        }
-        Value::Array(list) => {
-            for (i, value) in list.iter().enumerate() {
-                doubt(value, &format!("{at}/{i}"), dense, found);
-            }
-        }
-        Value::Object(map) => {
-            for (key, value) in map {
-                let own = key.ends_with(DENSITY) || (dense && key == "value");
-                doubt(value, &format!("{at}/{}", escaped(key)), own, found);
-            }
-        }
-        _ => {}
-    }
 }
 
 #[cfg(test)]

@@ -5,9 +5,8 @@ use std::io::Cursor;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-use super::origin::escaped;
 use super::patch::Merged;
-use super::{sheet, wanted};
+use super::{sheet, walk, wanted};
 use crate::fault::Fault;
 
 /// The key of a shape that a file gives.
@@ -20,7 +19,11 @@ const MOST: usize = 1_000_000;
 /// Reads the files of all shapes of a scene that name one and have no triangles yet.
 pub(super) fn fill(merged: &mut Merged, schema: &Value) -> Vec<Fault> {
     let mut places = Vec::new();
-    collect(merged.value(), "", &mut places);
+    walk::keys(merged.value(), &mut |path, key, value| {
+        if key == KEY && value.get("file").is_some() && value.get("triangles").is_none() {
+            places.push(path.to_owned());
+        }
+    });
     let mut faults = Vec::new();
     for at in places {
         let known = wanted::keys(&wanted::forms(schema, &at));
@@ -38,28 +41,6 @@ pub(super) fn fill(merged: &mut Merged, schema: &Value) -> Vec<Fault> {
         }
     }
     faults
-}
-
-fn collect(value: &Value, at: &str, found: &mut Vec<String>) {
-    match value {
-        Value::Object(map) => {
-            for (key, value) in map {
-                let inner = format!("{at}/{}", escaped(key));
-                let own = value.get("file").is_some() && value.get("triangles").is_none();
-                if key == KEY && own {
-                    found.push(inner);
-                } else {
-                    collect(value, &inner, found);
-                }
-            }
-        }
-        Value::Array(list) => {
-            for (i, value) in list.iter().enumerate() {
-                collect(value, &format!("{at}/{i}"), found);
-            }
-        }
-        _ => {}
-    }
 }
 
 /// What a shape gets of its file; nothing where the shape itself is wrong, which is told elsewhere.

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::origin::escaped;
+use super::walk;
 use crate::fault::Fault;
 
 /// Keys of lists whose entries are told by their names in what a run writes.
@@ -19,27 +19,12 @@ const TOLD: [&str; 7] = [
 /// Entries with the name of an earlier one.
 pub(super) fn faults(scene: &Value) -> Vec<Fault> {
     let mut found = Vec::new();
-    walk(scene, "", &mut found);
+    walk::keys(scene, &mut |path, key, value| {
+        if let (true, Value::Array(list)) = (TOLD.contains(&key), value) {
+            found.extend(twins(path, list));
+        }
+    });
     found
-}
-
-fn walk(value: &Value, at: &str, found: &mut Vec<Fault>) {
-    match value {
-        Value::Array(list) => {
-            let places = list.iter().enumerate();
-            places.for_each(|(i, value)| walk(value, &format!("{at}/{i}"), found));
-        }
-        Value::Object(map) => {
-            for (key, value) in map {
-                let path = format!("{at}/{}", escaped(key));
-                if let (true, Value::Array(list)) = (TOLD.contains(&key.as_str()), value) {
-                    found.extend(twins(&path, list));
-                }
-                walk(value, &path, found);
-            }
-        }
-        _ => {}
-    }
 }
 
 fn twins(path: &str, list: &[Value]) -> Vec<Fault> {
