@@ -110,24 +110,6 @@ impl RunRecord {
     }
 }
 
-/// A time span for people.
-pub(crate) fn duration(seconds: f64) -> String {
-    if seconds < 0.1 {
-        format!("{:.1} ms", 1e3 * seconds)
-    } else if seconds < 60.0 {
-        format!("{seconds:.1} s")
-    } else if seconds < 3600.0 {
-        format!(
-            "{:.0} min {:02.0} s",
-            (seconds / 60.0).floor(),
-            (seconds % 60.0).floor()
-        )
-    } else {
-        let (hours, rest) = ((seconds / 3600.0).floor(), seconds % 3600.0);
-        format!("{hours:.0} h {:02.0} min", (rest / 60.0).floor())
-    }
-}
-
 /// A number of bytes for people.
 pub(crate) fn bytes(count: u64) -> String {
     let count = count as f64;
@@ -196,13 +178,6 @@ mod tests {
         assert_eq!(figure(record.limits[0].value), "unbounded");
         assert_eq!(figure(record.closing[0].value), "not a number");
         assert_eq!(figure(record.closing[1].value), "2.000");
-    }
-
-    #[test]
-    fn spans_read_like_a_clock() {
-        assert_eq!(duration(0.0123), "12.3 ms");
-        assert_eq!(duration(125.0), "2 min 05 s");
-        assert_eq!(duration(7322.0), "2 h 02 min");
     }
 
     #[test]

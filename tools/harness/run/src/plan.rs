@@ -278,3 +278,17 @@ pub fn duration(seconds: f64) -> String {
         )
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spans_read_like_a_clock() {
+        assert_eq!(duration(0.0123), "12 ms");
+        assert_eq!(duration(12.34), "12.3 s");
+        assert_eq!(duration(125.0), "2 min 05 s");
+        assert_eq!(duration(7322.0), "2 h 02 min");
+        assert_eq!(duration(f64::INFINITY), "-");
+    }
+}

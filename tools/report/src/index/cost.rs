@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use run::duration;
+
 use crate::html::{Rows, escape, percent};
-use crate::records::{LeftOut, Memory, RunRecord, Spent, bytes, duration};
+use crate::records::{LeftOut, Memory, RunRecord, Spent, bytes};
 
 /// Stages shorter than this part of a run are not named.
 const SHOWN: f64 = 0.01;

@@ -1,9 +1,11 @@
 //! How the study was computed: programs, active stages, memory, what was left out.
 
+use run::duration;
+
 use super::{Named, program};
 use crate::html::{Rows, beside, escape, figure, note};
 use crate::plot::{Line, Plot};
-use crate::records::{RunRecord, bytes, duration, figure as digits};
+use crate::records::{RunRecord, bytes, figure as digits};
 
 /// So many iterations are shown evenly.
 const FEW: f64 = 200.0;

@@ -1,13 +1,13 @@
 //! Forces and heat by each way of finding them, and the times of the run.
 
 use artefact::{Entry, Record};
-use run::Failure;
+use run::{Failure, duration};
 
 use super::Run;
 use crate::field::columns::prefixed;
 use crate::html::{Rows, escape, paragraph, percent};
 use crate::page::{grouped, tiles};
-use crate::records::{RunRecord, bytes, duration, figure as digits};
+use crate::records::{RunRecord, bytes, figure as digits};
 
 /// Channel of totals.
 const TOTALS: &str = "/totals";

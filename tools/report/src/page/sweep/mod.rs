@@ -3,7 +3,7 @@
 mod over;
 mod points;
 
-use run::Failure;
+use run::{Failure, duration};
 
 use self::points::{Point, Points};
 use super::beside::{self, Member, curves, numbers, pictures};
@@ -11,7 +11,7 @@ use super::{arc, runs};
 use crate::csv::{self, Csv};
 use crate::files::{SweepFiles, save};
 use crate::html::{Page, Rows, escape, note, paragraph, verdict};
-use crate::records::{RunRecord, duration, figure as digits};
+use crate::records::{RunRecord, figure as digits};
 
 /// So many points stand side by side in tables of everything.
 const SIDE_BY_SIDE: usize = 12;
