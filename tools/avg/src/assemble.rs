@@ -5,7 +5,8 @@ use thiserror::Error;
 
 use crate::frames::{self, Plate};
 use crate::grid::Section;
-use crate::heat_map::{self, HeatMaps};
+use crate::heat_map::HeatMaps;
+use crate::layout;
 use crate::mean::Smoothing;
 use crate::parts::Parts;
 use crate::phase::{self, Source};
@@ -285,7 +286,7 @@ fn heat_maps(scene: &Scene, spacing: f64, first: &Frame) -> Result<Option<HeatMa
         return Ok(None);
     };
     let cell_m = map.cell_m.unwrap_or(spacing);
-    let cells = heat_map::wanted([map.x_m, map.y_m], cell_m);
+    let cells = layout::wanted([map.x_m, map.y_m], cell_m);
     if cells > POINTS_MOST {
         return Err(AverageError::Cells { cells, cell_m });
     }

@@ -5,10 +5,9 @@
 //! ```
 //!
 //! Q_a is the heat that particle a has got since the start, by one way. So the flux of a cell is exact in time however far
-//! apart frames are, and a map loses nothing but what lies beyond it. w shares a particle between the four nearest
-//! cells, bilinearly, and in the outer half of a cell at the end between those along it. Of an even flux on a lattice as fine
-//! as the cells each cell gets its own; one that is coarser by a twentieth shows no more than half a per cent, but for the
-//! cells at the end. Metal that flows is counted where it lies at the later frame.
+//! apart frames are, and a map loses nothing but what lies beyond it. w shares a particle between the cells around it
+//! ([`Layout`]). Of an even flux on a lattice as fine as the cells each cell gets its own; one that is coarser by a twentieth
+//! shows no more than half a per cent, but for the cells at the end. Metal that flows is counted where it lies at the later frame.
 //!
 //! Particles are known by their numbers. One that was in no frame before counts from zero if it came from the wire, and
 //! else from the first frame that shows it: what it has got out of sight is not known.
@@ -17,84 +16,11 @@ use std::collections::HashMap;
 
 use artefact::{Record, Table};
 
+use crate::layout::Layout;
 use crate::received::Received;
 
 /// Channel of the maps; that of their mean over time has `/time_mean` behind it.
 pub const HEAT_MAP: &str = "heat_map";
-
-/// Cells seen from above, and places whose fluxes are told.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Layout {
-    /// Centres of the cells across and along the weld \[m\].
-    pub centres: [Vec<f64>; 2],
-    /// Side of a cell \[m\].
-    pub side: f64,
-    /// Least length of an interval \[s\].
-    pub interval: f64,
-    /// Names and places \[m\].
-    pub places: Vec<(String, [f64; 2])>,
-}
-
-/// How many cells a map over `ranges` \[m\] has, before any is made.
-#[must_use]
-pub fn wanted(ranges: [[f64; 2]; 2], side: f64) -> f64 {
-    ranges
-        .iter()
-        .map(|range| (range[1] - range[0]) / side)
-        .product()
-}
-
-impl Layout {
-    /// Cells of `side` \[m\] that fill `ranges` \[m\] from their lower ends on; the last may reach beyond.
-    #[must_use]
-    pub fn new(ranges: [[f64; 2]; 2], side: f64, interval: f64) -> Self {
-        let centres = ranges.map(|[from, to]| {
-            // A millionth of a cell keeps an end that is meant to be that of a cell.
-            let count = ((to - from) / side - 1e-6).ceil().max(1.0) as usize;
-            (0..count).map(|i| from + (i as f64 + 0.5) * side).collect()
-        });
-        Self {
-            centres,
-            side,
-            interval,
-            places: Vec::new(),
-        }
-    }
-
-    /// Number of cells.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.centres[0].len() * self.centres[1].len()
-    }
-
-    /// True without cells.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// The cells around a place and its parts in them, second axis fastest; what lies beyond the map is in none.
-    fn shares(&self, place: [f64; 2]) -> impl Iterator<Item = (usize, f64)> {
-        let axes = [0, 1].map(|k| {
-            let centres = &self.centres[k];
-            let (at, last) = (
-                (place[k] - centres[0]) / self.side,
-                (centres.len() - 1) as f64,
-            );
-            // A millionth of a cell keeps what stands on the edge.
-            let lies = at >= -0.5 - 1e-6 && at <= last + 0.5 + 1e-6;
-            let at = at.clamp(0.0, last);
-            let (low, part) = (at.floor(), at - at.floor());
-            let cell = |i: f64| lies.then_some(i.min(last) as usize);
-            [(cell(low), 1.0 - part), (cell(low + 1.0), part)]
-        });
-        let row = self.centres[1].len();
-        axes[0].into_iter().flat_map(move |(i, a)| {
-            let cells = axes[1].into_iter();
-            cells.filter_map(move |(j, b)| Some((i? * row + j?, a * b)))
-        })
-    }
-}
 
 /// Maps of one interval after the other.
 #[derive(Debug, Clone)]

@@ -25,6 +25,7 @@ pub mod fields;
 pub mod frames;
 pub mod grid;
 pub mod heat_map;
+pub mod layout;
 pub mod mean;
 pub mod parts;
 pub mod phase;

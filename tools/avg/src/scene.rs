@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::grid::{Cut, Section};
-use crate::heat_map::{HEAT_MAP, Layout};
+use crate::heat_map::HEAT_MAP;
+use crate::layout::Layout;
 use crate::profile::PROFILE;
 
 /// A scene of averages. Lengths are in the frame of reference of the averages: with `follow`, x and
