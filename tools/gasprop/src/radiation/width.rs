@@ -18,7 +18,7 @@
 use std::f64::consts::PI;
 
 use crate::constants::{
-    BOLTZMANN, ELECTRON_MASS, ELECTRON_VOLT, ELEMENTARY_CHARGE, LIGHT_SPEED, PERMITTIVITY, PLANCK,
+    BOLTZMANN, ELECTRON_VOLT, ELEMENTARY_CHARGE, LIGHT_SPEED, PERMITTIVITY, PLANCK,
 };
 
 /// Rydberg's energy, J.
@@ -119,13 +119,10 @@ pub fn doppler(t: f64, mass: f64, wavelength: f64) -> f64 {
     (2.0 * BOLTZMANN * t / mass).sqrt() / wavelength
 }
 
-/// Mass of the electron, for [`Disturbance::charged`].
-pub const ELECTRON: f64 = ELECTRON_MASS;
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constants::ATOMIC_MASS;
+    use crate::constants::{ATOMIC_MASS, ELECTRON_MASS};
 
     const ARGON: Core = Core {
         charge: 1.0,

@@ -173,15 +173,6 @@ impl<const D: usize> Stencils<D> {
             .collect()
     }
 
-    /// Laplacian of `field` at all rows; zero where there is no row.
-    #[must_use]
-    pub fn apply_laplacian<T: Field + Send + Sync>(&self, field: &[T]) -> Vec<T> {
-        let rows = 0..self.rows();
-        rows.into_par_iter()
-            .map(|i| self.laplacian(i).apply(field))
-            .collect()
-    }
-
     fn row(&self, i: usize, column: usize, power: i32) -> Row<'_> {
         let spot = &self.spots[i];
         let (count, shares) = (spot.count as usize, spot.shares as usize);

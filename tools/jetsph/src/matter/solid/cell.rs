@@ -14,7 +14,7 @@
 
 use super::law::Law;
 use super::quadratic::second;
-use super::tensor::{Matrix, UNIT, determinant, product, transposed_times};
+use super::tensor::{Matrix, UNIT, product, transposed_times};
 
 /// lambda' is at most so many shear moduli.
 const LAME_MOST: f64 = 2.0;
@@ -179,12 +179,6 @@ impl Cell {
             energy += 0.5 * self.moment[k] * super::tensor::inner(&strain, &stress);
         }
         self.volume * energy
-    }
-
-    /// Whether the cell is turned inside out.
-    #[must_use]
-    pub fn is_inside_out<const L: usize, const T: usize>(derivatives: &Derivatives<L, T>) -> bool {
-        determinant(&gradient(derivatives)) <= 0.0
     }
 }
 
