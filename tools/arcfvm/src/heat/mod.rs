@@ -109,13 +109,13 @@ pub fn contacts(
             if i + 1 < grid.nr {
                 let there = grid.cell(i + 1, j);
                 if let Some(electrode) = meeting(material, here, there, &electrode_of) {
-                    all.push(radial_contact(grid, material, i, j, electrode));
+                    all.push(Joined::radial(grid, i, j).contact(material, electrode));
                 }
             }
             if j + 1 < grid.nz {
                 let there = grid.cell(i, j + 1);
                 if let Some(electrode) = meeting(material, here, there, &electrode_of) {
-                    all.push(axial_contact(grid, material, i, j, electrode));
+                    all.push(Joined::axial(grid, i, j).contact(material, electrode));
                 }
             }
         }
@@ -136,65 +136,59 @@ fn meeting(
     }
 }
 
-/// The contact at the outer face of cell `(i, j)`.
-fn radial_contact(
-    grid: &Grid,
-    material: &[usize],
-    i: usize,
-    j: usize,
-    electrode: usize,
-) -> Contact {
-    let (inner, outer) = (grid.cell(i, j), grid.cell(i + 1, j));
-    let inner_is_gas = material[inner] == GAS;
-    let halves = (0.5 * grid.dr[i], 0.5 * grid.dr[i + 1]);
-    let (gas, metal) = if inner_is_gas {
-        (inner, outer)
-    } else {
-        (outer, inner)
-    };
-    let (gas_half, metal_half) = if inner_is_gas {
-        halves
-    } else {
-        (halves.1, halves.0)
-    };
-    Contact {
-        gas,
-        metal,
-        electrode,
-        face: FaceIndex::Radial(grid.radial_face(i + 1, j)),
-        area: grid.area(i + 1, j),
-        gas_half,
-        metal_half,
-        place: [grid.rf[i + 1], grid.zc[j]],
-        normal: [if inner_is_gas { -1.0 } else { 1.0 }, 0.0],
-    }
+/// A face and the cells that it joins, in the order of the axis across it.
+struct Joined {
+    axis: usize,
+    cells: [usize; 2],
+    /// Half their widths across the face \[m\].
+    halves: [f64; 2],
+    face: FaceIndex,
+    area: f64,
+    place: [f64; 2],
 }
 
-/// The contact at the upper face of cell `(i, j)`.
-fn axial_contact(grid: &Grid, material: &[usize], i: usize, j: usize, electrode: usize) -> Contact {
-    let (lower, upper) = (grid.cell(i, j), grid.cell(i, j + 1));
-    let lower_is_gas = material[lower] == GAS;
-    let halves = (0.5 * grid.dz[j], 0.5 * grid.dz[j + 1]);
-    let (gas, metal) = if lower_is_gas {
-        (lower, upper)
-    } else {
-        (upper, lower)
-    };
-    let (gas_half, metal_half) = if lower_is_gas {
-        halves
-    } else {
-        (halves.1, halves.0)
-    };
-    Contact {
-        gas,
-        metal,
-        electrode,
-        face: FaceIndex::Axial(grid.axial_face(i, j + 1)),
-        area: grid.ring[i],
-        gas_half,
-        metal_half,
-        place: [grid.rc[i], grid.zf[j + 1]],
-        normal: [0.0, if lower_is_gas { -1.0 } else { 1.0 }],
+impl Joined {
+    /// At the outer face of cell `(i, j)`.
+    fn radial(grid: &Grid, i: usize, j: usize) -> Self {
+        Self {
+            axis: 0,
+            cells: [grid.cell(i, j), grid.cell(i + 1, j)],
+            halves: [0.5 * grid.dr[i], 0.5 * grid.dr[i + 1]],
+            face: FaceIndex::Radial(grid.radial_face(i + 1, j)),
+            area: grid.area(i + 1, j),
+            place: [grid.rf[i + 1], grid.zc[j]],
+        }
+    }
+
+    /// At the upper face of cell `(i, j)`.
+    fn axial(grid: &Grid, i: usize, j: usize) -> Self {
+        Self {
+            axis: 1,
+            cells: [grid.cell(i, j), grid.cell(i, j + 1)],
+            halves: [0.5 * grid.dz[j], 0.5 * grid.dz[j + 1]],
+            face: FaceIndex::Axial(grid.axial_face(i, j + 1)),
+            area: grid.ring[i],
+            place: [grid.rc[i], grid.zf[j + 1]],
+        }
+    }
+
+    /// The contact of gas and metal; the normal points into the gas.
+    fn contact(self, material: &[usize], electrode: usize) -> Contact {
+        let first_is_gas = material[self.cells[0]] == GAS;
+        let [gas, metal] = if first_is_gas { [0, 1] } else { [1, 0] };
+        let mut normal = [0.0; 2];
+        normal[self.axis] = if first_is_gas { -1.0 } else { 1.0 };
+        Contact {
+            gas: self.cells[gas],
+            metal: self.cells[metal],
+            electrode,
+            face: self.face,
+            area: self.area,
+            gas_half: self.halves[gas],
+            metal_half: self.halves[metal],
+            place: self.place,
+            normal,
+        }
     }
 }
 
