@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use run::property::Curve;
 use run::{Failure, Fault, Inputs};
+use shapes::frame::unit;
 
 use self::arcs::Arcs;
 use self::grains::Beside;
@@ -356,10 +357,4 @@ impl<'a> Source<'a> {
             mirror_x_m: self.scene.faces.as_ref().and_then(|f| f.mirror_x_m()),
         }
     }
-}
-
-/// Direction of a vector; `None` for zero.
-fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
-    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    (length > 0.0).then(|| v.map(|x| x / length))
 }

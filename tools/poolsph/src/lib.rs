@@ -37,7 +37,6 @@ pub mod program;
 pub mod surface;
 mod sweep;
 mod trial;
-pub mod vector;
 mod watch;
 
 pub use program::PoolSph;

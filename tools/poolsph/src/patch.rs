@@ -1,9 +1,9 @@
 //! What the surface is at a particle.
 
 use particles::{Column, Set};
+use shapes::frame::along;
 
 use crate::faces::Turn;
-use crate::vector::plus;
 
 /// A wall whose normal points down by this much is out of reach of the arc. It is above zero for the scatter of
 /// normals: half of the patches of an upright wall look down a little.
@@ -59,7 +59,7 @@ impl Patch {
     #[must_use]
     #[inline]
     pub fn foot(&self, x: [f64; 3]) -> [f64; 3] {
-        plus(x, self.depth, self.normal)
+        along(x, self.depth, self.normal)
     }
 
     /// The part of the area that the arc reaches from above: all of what looks upwards, nothing of what looks down.

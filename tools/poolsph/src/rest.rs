@@ -14,6 +14,7 @@ use std::collections::BTreeMap;
 
 use kernels::CubicSpline;
 use particles::POSITION;
+use shapes::frame::distance;
 
 use crate::state::{DROPLET, FUSED, LIQUID, PHASE, State, marked, phase};
 
@@ -229,13 +230,6 @@ fn rests(phase: u8, flowing: bool) -> bool {
 /// Cell of a place; a search looks into 27 of them.
 fn cell(place: [f64; 3], edge: f64) -> [i32; 3] {
     place.map(|x| (x / edge).floor() as i32)
-}
-
-/// |a - b| \[m\].
-#[inline]
-pub fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let dx = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-    (dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2]).sqrt()
 }
 
 #[cfg(test)]

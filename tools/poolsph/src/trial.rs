@@ -5,12 +5,12 @@ use std::time::{Duration, Instant};
 
 use particles::POSITION;
 use run::{Estimate, Failure, duration};
+use shapes::frame::{difference, squared};
 
 use crate::assemble::Assembled;
 use crate::march::March;
 use crate::scene::{Scene, StartState};
 use crate::state::{ENTHALPY, State, TEMPERATURE};
-use crate::vector::{minus, squared};
 
 /// Steps ahead of those that are timed: they fill the lists.
 const WARM: u64 = 2;
@@ -148,7 +148,7 @@ impl Pool {
         let columns = (&POSITION, &ENTHALPY, &TEMPERATURE);
         let (places, enthalpies, temperatures) = state.metal.columns_mut(columns);
         let mut nearest: Vec<(f64, usize)> = (places.iter().enumerate())
-            .map(|(a, x)| (squared(minus(*x, self.centre)), a))
+            .map(|(a, x)| (squared(difference(*x, self.centre)), a))
             .collect();
         nearest.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (_, a) in &nearest[..self.particles.min(nearest.len())] {

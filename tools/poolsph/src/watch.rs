@@ -2,11 +2,11 @@
 
 use particles::{POSITION, Store};
 use run::Failure;
+use shapes::frame::squared;
 use steps::{Beyond, Limit};
 
 use crate::stage::StageError;
 use crate::state::State;
-use crate::vector::squared;
 
 /// A step that would be divided into more parts than this is refused: it would never end.
 const PARTS_MOST: f64 = 1e4;

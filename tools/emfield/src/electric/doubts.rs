@@ -1,6 +1,6 @@
 //! Electric forces that are known in several ways, and what to say where these disagree.
 
-use shapes::frame::{Vector, length};
+use shapes::frame::{Vector, difference, length};
 
 use super::enclosed::Closed;
 use super::equations::Problem;
@@ -8,7 +8,6 @@ use super::traction::{EPS0, stress};
 use crate::cloud::{Cloud, SurfacePoint};
 use crate::frames::Doubt;
 use crate::geometry::Geometry;
-use crate::magnetic::source::minus;
 use crate::surface::ways::{APART, HELP, Ways, size, told};
 
 /// Tractions added up over some surfaces.
@@ -26,14 +25,14 @@ struct Pulled {
 
 impl Pulled {
     fn add(&mut self, area: f64, pull: Vector, [inside, outside]: [Vector; 2], place: Vector) {
-        let jump = minus(outside, inside);
+        let jump = difference(outside, inside);
         for k in 0..3 {
             self.force[k] += area * pull[k];
             self.stress[k] += area * jump[k];
         }
         // Of media that are nearly alike hardly anything is left of both stresses.
         self.gross += area * length(pull).max(length(outside));
-        let apart = area * length(minus(jump, pull));
+        let apart = area * length(difference(jump, pull));
         if apart >= self.worst.0 {
             self.worst = (apart, place);
         }

@@ -1,11 +1,9 @@
 //! Traction of an electrostatic field on a surface: the jump of Maxwell's stress.
 
+use shapes::frame::dot;
+
 /// Permittivity of vacuum \[F/m\] (CODATA 2018).
 pub const EPS0: f64 = 8.854_187_812_8e-12;
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
 
 /// Traction \[Pa\] on a surface without free charge between the permittivities `[inner, outer]`
 /// (relative), from the fields `[inside, outside]` and the unit normal outward:

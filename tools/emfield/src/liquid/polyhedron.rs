@@ -1,5 +1,7 @@
 //! Convex bodies that planes leave of a cube about an origin.
 
+use shapes::frame::cross;
+
 use super::vector::{along, difference, dot, length};
 
 /// A face: corners in order about the way out of the body, and what is beyond it.
@@ -17,7 +19,7 @@ impl Side {
         let mut sum = [0.0; 3];
         for pair in self.corners.windows(2) {
             let (a, b) = (difference(&pair[0], &first), difference(&pair[1], &first));
-            sum = along(&sum, 0.5, &cross(&a, &b));
+            sum = along(&sum, 0.5, &cross(a, b));
         }
         sum
     }
@@ -117,7 +119,7 @@ fn around(mut corners: Vec<[f64; 3]>, way: &[f64; 3]) -> Vec<[f64; 3]> {
     let far = |x: &[f64; 3]| dot(&difference(x, &middle), &difference(x, &middle));
     let start = corners.iter().max_by(|a, b| far(a).total_cmp(&far(b)));
     let first = start.map_or([0.0; 3], |x| difference(x, &middle));
-    let second = cross(way, &first);
+    let second = cross(*way, first);
     let whole = (length(way) * length(&first)).max(f64::MIN_POSITIVE);
     let angle = |x: &[f64; 3]| {
         let d = difference(x, &middle);
@@ -125,13 +127,6 @@ fn around(mut corners: Vec<[f64; 3]>, way: &[f64; 3]) -> Vec<[f64; 3]> {
     };
     corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
     corners
-}
-
-fn cross(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        a[i] * b[j] - a[j] * b[i]
-    })
 }
 
 #[cfg(test)]

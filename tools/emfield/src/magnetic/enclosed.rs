@@ -1,10 +1,10 @@
 //! Force and heat of what closed surfaces enclose.
 
-use shapes::frame::Vector;
+use shapes::frame::{Vector, difference};
 
 use super::fields::{Fields, Solution, cross_mean};
 use super::problem::Problem;
-use super::source::{C, Source, minus};
+use super::source::{C, Source};
 use super::totals::Totals;
 use crate::frames::Found;
 use crate::surface::fits::Enclosed;
@@ -68,7 +68,7 @@ impl<const D: usize> Problem<'_, D> {
             .zip(&alone)
             .map(|(a, s)| sum(&a.flux, s))
             .collect();
-        let force = minus(surface.stress(&flux), surface.stress(&alone));
+        let force = difference(surface.stress(&flux), surface.stress(&alone));
         // What is applied along bars has no part in the potential beyond them.
         let omega = self.parameters.omega.filter(|_| self.bars.is_empty());
         let heat = omega.map(|omega| {
@@ -81,7 +81,7 @@ impl<const D: usize> Problem<'_, D> {
                 let electric = |a: &[C; 3]| a.map(|a| rate * a);
                 let total = sum(&own[n].potential, &given[n]);
                 let all = cross_mean(electric(&total), flux[n]);
-                minus(all, cross_mean(electric(&given[n]), alone[n]))
+                difference(all, cross_mean(electric(&given[n]), alone[n]))
             };
             surface.inward((0..own.len()).map(flow))
         });

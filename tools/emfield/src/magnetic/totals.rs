@@ -1,11 +1,13 @@
 //! Total force and heat, each in ways that share little: their difference is an estimate of the error.
 
+use shapes::frame::difference;
+
 use crate::magnetic::driven::force;
 use crate::magnetic::driven::winding::Windings;
 use crate::magnetic::fields::{Fields, cross_mean};
 use crate::magnetic::medium::interface::Acting;
 use crate::magnetic::medium::law::{jumps, traction};
-use crate::magnetic::source::{C, Source, minus};
+use crate::magnetic::source::{C, Source};
 use crate::stencils::region::Region;
 
 /// Totals of all conductors and magnets.
@@ -146,7 +148,7 @@ fn stress(b: &[C; 3], n: [f64; 3]) -> [f64; 3] {
 /// A force over closed surfaces without what the sources beyond them give of it, where that matters. Of exact fields they give
 /// nothing: what they do give is an error of the sums, larger than the force itself where currents are weak.
 fn without(force: [f64; 3], alone: [f64; 3]) -> [f64; 3] {
-    let less = minus(force, alone);
+    let less = difference(force, alone);
     let square = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
     if square(alone) > ALONE * ALONE * square(less) {
         less
@@ -159,7 +161,7 @@ fn without(force: [f64; 3], alone: [f64; 3]) -> [f64; 3] {
 #[must_use]
 pub fn spread(forces: &[[f64; 3]]) -> f64 {
     let apart = |a: &[f64; 3], b: &[f64; 3]| {
-        let d = minus(*a, *b);
+        let d = difference(*a, *b);
         d.iter().map(|x| x * x).sum::<f64>().sqrt()
     };
     let pairs = forces.iter().enumerate();

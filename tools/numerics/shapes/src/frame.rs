@@ -1,41 +1,62 @@
-//! Where a shape stands: an origin and three axes at right angles.
+//! Vectors in space, and where a shape stands: an origin and three axes at right angles.
 
 /// A place or direction \[m\].
 pub type Vector = [f64; 3];
 
 /// The scalar product.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// `a . a`.
+#[inline(always)]
+#[must_use]
+pub fn squared(a: Vector) -> f64 {
+    dot(a, a)
+}
+
 /// `a + s b`.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn along(a: Vector, s: f64, b: Vector) -> Vector {
     [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]]
 }
 
 /// `s a`.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn scaled(s: f64, a: Vector) -> Vector {
     [s * a[0], s * a[1], s * a[2]]
 }
 
 /// `a - b`.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn difference(a: Vector, b: Vector) -> Vector {
     along(a, -1.0, b)
 }
 
 /// Length \[m\].
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn length(a: Vector) -> f64 {
-    dot(a, a).sqrt()
+    squared(a).sqrt()
+}
+
+/// `|a - b|` \[m\].
+#[inline(always)]
+#[must_use]
+pub fn distance(a: Vector, b: Vector) -> f64 {
+    length(difference(a, b))
+}
+
+/// The unit vector along `a`; none of a vector without a length.
+#[must_use]
+pub fn unit(a: Vector) -> Option<Vector> {
+    let size = length(a);
+    (size > 0.0 && size.is_finite()).then(|| a.map(|x| x / size))
 }
 
 /// The direction of `a`, which must not be zero.
@@ -46,7 +67,7 @@ pub fn direction(a: Vector) -> Vector {
 }
 
 /// The vector product.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn cross(a: Vector, b: Vector) -> Vector {
     [

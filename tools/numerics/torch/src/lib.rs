@@ -26,32 +26,3 @@ pub use path::{Path, Weave};
 pub use shape::{DoubleEllipsoid, Gaussian, Shape};
 pub use torch::{Beyond, Stand, Torch};
 pub use waveform::Waveform;
-
-/// A place or direction in space.
-pub type Vector = [f64; 3];
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn along(a: Vector, s: f64, b: Vector) -> Vector {
-    std::array::from_fn(|k| a[k] + s * b[k])
-}
-
-fn length(a: Vector) -> f64 {
-    dot(a, a).sqrt()
-}
-
-/// The unit vector along `a`; none of a vector without length.
-fn unit(a: Vector) -> Option<Vector> {
-    let size = length(a);
-    (size > 0.0 && size.is_finite()).then(|| a.map(|x| x / size))
-}

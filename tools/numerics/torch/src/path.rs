@@ -10,8 +10,7 @@ use std::f64::consts::TAU;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use crate::{Vector, along, length, unit};
+use shapes::frame::{Vector, along, length, unit};
 
 /// A sine across the path.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

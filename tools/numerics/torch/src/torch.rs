@@ -2,12 +2,12 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use shapes::frame::{Vector, along, cross, dot, length, unit};
 
 use crate::misfit::Misfit;
 use crate::path::Path;
 use crate::shape::Shape;
 use crate::waveform::Waveform;
-use crate::{Vector, along, cross, dot, length, unit};
 
 /// What becomes of the part of the distribution that lies outside the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

@@ -1,8 +1,7 @@
 //! The planes, and how an image follows from its original.
 
 use run::property::{Arguments, Curve, OutOfRange};
-
-use crate::vector::{plus, squared};
+use shapes::frame::{along, squared};
 
 /// Cosine between an axis and the normal of a plane up to which the axis lies in it.
 const BESIDE: f64 = 1e-9;
@@ -140,13 +139,13 @@ impl Turn {
     pub fn surface(&self, x: [f64; 3], normal: [f64; 3]) -> ([f64; 3], [f64; 3]) {
         let (mut place, mut turned) = (self.place(x), self.vector(normal));
         for axis in (0..3).filter(|axis| self.cot[*axis] != 0.0) {
-            let mut along = turned;
-            along[axis] = 0.0;
-            let size = squared(along).sqrt();
+            let mut tangent = turned;
+            tangent[axis] = 0.0;
+            let size = squared(tangent).sqrt();
             if size > 0.0 {
                 let (way, cot) = ((x[axis] - place[axis]).abs(), self.cot[axis]);
                 let inward = if self.upper[axis] { -1.0 } else { 1.0 };
-                place = plus(place, cot * way / size, along);
+                place = along(place, cot * way / size, tangent);
                 turned[axis] += 2.0 * size * cot * inward;
                 let length = squared(turned).sqrt();
                 turned = turned.map(|n| n / length);

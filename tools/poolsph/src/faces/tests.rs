@@ -1,4 +1,5 @@
 use particles::{Matter, POSITION};
+use shapes::frame::{difference, dot, squared};
 
 use super::*;
 use crate::heat::{self, Conduction};
@@ -9,7 +10,6 @@ use crate::motion::viscosity::Viscosity;
 use crate::motion::{self, Law, Motion};
 use crate::stage::Stage;
 use crate::state::{ENTHALPY, Particle, State, TEMPERATURE, VELOCITY, phase};
-use crate::vector::{dot, minus, squared};
 
 const METAL: Matter = Matter {
     density: 1000.0,
@@ -171,7 +171,7 @@ fn half_a_body_beside_a_mirror_moves_as_the_whole() {
         }
         let [half, whole] = [&half, &whole].map(|state| state.metal.column(&POSITION));
         for a in 0..points.len() {
-            let apart = squared(minus(half[a], whole[a])).sqrt();
+            let apart = squared(difference(half[a], whole[a])).sqrt();
             assert!(apart < most, "{method}, {a}: {apart}");
             let turned = whole[a + points.len()];
             let off = (turned[0] + whole[a][0]).abs();
@@ -339,15 +339,15 @@ fn beyond_a_face_a_surface_goes_on_at_its_contact_angle() {
         for turn in [0.0_f64, 1.0, 2.5] {
             let normal = [sin * turn.cos(), sin * turn.sin(), up * cos];
             let (place, turned) = images.turn(1).unwrap().surface(places[0], normal);
-            let away = dot(minus(place, places[0]), normal);
+            let away = dot(difference(place, places[0]), normal);
             assert!(
                 away.abs() < 1e-14 && (place[2] - beside + up).abs() < 1e-14,
                 "{place:?}"
             );
-            let off = squared(minus(turned, normal));
+            let off = squared(difference(turned, normal));
             assert!(off < 1e-28, "{degrees} degrees: {turned:?} for {normal:?}");
             let facing = images.turn(1).unwrap().facing(normal);
-            assert!(squared(minus(facing, turned)) <= 0.0);
+            assert!(squared(difference(facing, turned)) <= 0.0);
         }
     }
 }

@@ -17,17 +17,17 @@ use run::Fault;
 use run::property::{Arguments, Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use shapes::frame::along;
 use steps::Figure;
 
-use crate::near::Role;
 use crate::mean;
+use crate::near::Role;
 use crate::patch::{self, Patches};
 use crate::source::Place;
 use crate::source::arc::Radial;
 use crate::source::arcs::Burning;
 use crate::stage::{Stage, StageError};
 use crate::state::State;
-use crate::vector::plus;
 
 /// The pressure of the arc (key `arc_pressure`): of the arc input, or of a formula.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -169,7 +169,7 @@ impl Stage for ArcPressure {
             let side = beside * patch.reached() * patch.area;
             let down = above * patch.seen;
             let [nx, ny, _] = patch.normal;
-            near.force[k] = plus(
+            near.force[k] = along(
                 near.force[k],
                 -1.0 / self.volume,
                 [side * nx, side * ny, down],

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 
 use particles::Matter;
 use run::property::Property;
+use shapes::frame::dot;
 
 use super::arc_pressure::{ArcPressure, Pressure};
 use super::gas_shear::{Gas, GasShear, Parameters};
@@ -18,7 +19,6 @@ use crate::source::arcs::{Burning, OneArc};
 use crate::stage::Stage;
 use crate::state::{Particle, State, phase};
 use crate::surface::Surface;
-use crate::vector::dot;
 
 const METAL: Matter = Matter {
     density: 1.0,

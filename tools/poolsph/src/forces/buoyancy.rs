@@ -6,11 +6,11 @@
 use particles::Matter;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use shapes::frame::along;
 
 use crate::near::Role;
 use crate::stage::{Stage, StageError};
 use crate::state::{State, TEMPERATURE};
-use crate::vector::plus;
 
 /// Expansion of the liquid (key `buoyancy`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -60,7 +60,7 @@ impl Stage for Buoyancy {
         let rows = near.force.iter_mut().zip(&near.role).zip(&near.id);
         for ((force, _), &id) in rows.filter(|((_, role), _)| **role == Role::Liquid) {
             let lighter = -(temperature[id as usize] - reference) * expansion;
-            *force = plus(*force, lighter, self.weight);
+            *force = along(*force, lighter, self.weight);
         }
         Ok(())
     }

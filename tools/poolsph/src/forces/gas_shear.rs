@@ -16,6 +16,7 @@ use run::Fault;
 use run::property::{Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use shapes::frame::{along, dot};
 
 use crate::motion::Law;
 use crate::near::Role;
@@ -24,7 +25,6 @@ use crate::source::arc::Radial;
 use crate::source::arcs::Burning;
 use crate::stage::{Stage, StageError};
 use crate::state::{State, TEMPERATURE};
-use crate::vector::{dot, plus};
 
 /// Shear by the gas (key `gas_shear`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -126,9 +126,9 @@ impl Stage for GasShear {
                 let outward = [x, y, 0.0];
                 let own = self.viscosity.at(temperatures, a);
                 let stress = level * self.stress(gas, r, own, dot(near.velocity[k], outward))?;
-                let along = plus(outward, -dot(outward, patch.normal), patch.normal);
+                let tangential = along(outward, -dot(outward, patch.normal), patch.normal);
                 let per_volume = stress * patch.reached() * patch.area / self.metal.volume();
-                near.force[k] = plus(near.force[k], per_volume, along);
+                near.force[k] = along(near.force[k], per_volume, tangential);
             }
         }
         Ok(())

@@ -13,13 +13,13 @@ use run::Fault;
 use run::property::{Curve, OutOfRange, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use shapes::frame::{along, difference, dot};
 
 use super::solute::{IRON, Solute};
 use crate::near::{Near, Role, Row};
 use crate::patch::{self, AREA, Patches};
 use crate::stage::{Stage, StageError};
 use crate::state::{State, TEMPERATURE};
-use crate::vector::{dot, minus, plus};
 
 /// Dependence of the surface tension on the temperature (key `marangoni`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -155,12 +155,12 @@ fn gradient(near: &Near, temperature: &[f64], a: usize, row: Row<'_>) -> [f64; 3
     let mut moment = [[0.0; 3]; 3];
     let mut sum = [0.0; 3];
     for (b, slope) in row.slopes() {
-        let dx = minus(near.position[b], near.position[a]);
+        let dx = difference(near.position[b], near.position[a]);
         // The kernel falls with distance: -slope is the weight.
         let weight = -slope;
-        sum = plus(sum, weight * (temperature[b] - temperature[a]), dx);
+        sum = along(sum, weight * (temperature[b] - temperature[a]), dx);
         for (line, x) in moment.iter_mut().zip(dx) {
-            *line = plus(*line, weight * x, dx);
+            *line = along(*line, weight * x, dx);
         }
     }
     solve(moment, sum).unwrap_or_default()
@@ -212,8 +212,8 @@ impl Stage for Marangoni {
             let (area, normal) = (surface.area[id], surface.normal[id]);
             if near.role[a] == Role::Liquid && area > 0.0 {
                 let gradient = gradient(near, temperature, a, row);
-                let along = plus(gradient, -dot(gradient, normal), normal);
-                *force = plus(*force, each[a] / volume * area, along);
+                let tangential = along(gradient, -dot(gradient, normal), normal);
+                *force = along(*force, each[a] / volume * area, tangential);
             }
         });
         state.near.force = force;

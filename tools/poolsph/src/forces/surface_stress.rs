@@ -9,13 +9,13 @@ use run::Fault;
 use run::property::{Arguments, Curve, Property};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use shapes::frame::{along, dot};
 
-use crate::near::Role;
 use crate::mean;
+use crate::near::Role;
 use crate::patch::{self, Patches};
 use crate::stage::{Stage, StageError};
 use crate::state::State;
-use crate::vector::{dot, plus};
 
 /// A given stress on the surface (key `surface_stress`).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -84,8 +84,8 @@ impl Stage for SurfaceStress {
             let patch = surface.at(a);
             let (stress, found) = self.at(patch.foot(near.position[k]), state.time, dt)?;
             self.missed |= !found;
-            let along = plus(stress, -dot(stress, patch.normal), patch.normal);
-            near.force[k] = plus(near.force[k], patch.area / self.volume, along);
+            let tangential = along(stress, -dot(stress, patch.normal), patch.normal);
+            near.force[k] = along(near.force[k], patch.area / self.volume, tangential);
         }
         Ok(())
     }

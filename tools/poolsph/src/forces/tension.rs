@@ -29,6 +29,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use neighbours::ROWS;
+use shapes::frame::{along, difference, dot, squared};
 use steps::Limit;
 
 use crate::faces::Turn;
@@ -36,7 +37,6 @@ use crate::motion::lattice::Lattice;
 use crate::near::{Near, Role};
 use crate::stage::{Stage, StageError};
 use crate::state::State;
-use crate::vector::{dot, minus, plus, squared};
 
 /// Kernel means of the force (Komen 2019, section 4.2.1).
 const SMOOTHINGS: u32 = 3;
@@ -122,12 +122,12 @@ impl Tension {
                     }
                     let (mut sum, mut stretched, mut given) = ([0.0; 3], 0.0, 0.0);
                     for (&b, &w) in chunk.row(k).iter().zip(&pairs.value[chunk.range(k)]) {
-                        let dx = minus(position[b as usize], position[a]);
+                        let dx = difference(position[b as usize], position[a]);
                         let square = squared(dx);
                         let q = square.sqrt() / h;
                         // f(q)/q, times c gamma: the force over the distance.
                         let stiffness = strength * ((2.0 - q).max(0.0) / q).min(1.0);
-                        sum = plus(sum, stiffness, dx);
+                        sum = along(sum, stiffness, dx);
                         stretched += stiffness * square;
                         given += f64::from(u8::from(role[b as usize].flows())) * w;
                     }
@@ -169,8 +169,8 @@ impl Tension {
             if near.role[a] == Role::Liquid {
                 let liquid = row.values().filter(|(b, _)| near.role[*b].flows());
                 let sum = liquid.fold(0.0, |sum, (b, w)| {
-                    let force = minus(three(total[b]), three(total[a]));
-                    sum + w * dot(force, minus(near.position[a], near.position[b]))
+                    let force = difference(three(total[b]), three(total[a]));
+                    sum + w * dot(force, difference(near.position[a], near.position[b]))
                 });
                 *virial += share * sum;
             }
@@ -223,7 +223,7 @@ impl Stage for Tension {
         // After the swap `smooth` holds what the last exchange began with.
         for ((force, thrice), further) in near.force.iter_mut().zip(&self.smooth).zip(&self.pull) {
             let pull = std::array::from_fn(|i| 2.0 * thrice[i] - further[i]);
-            *force = plus(*force, 1.0 / volume, pull);
+            *force = along(*force, 1.0 / volume, pull);
         }
         Ok(())
     }
@@ -293,7 +293,7 @@ mod tests {
         let mut sum = [0.0; 3];
         let mut size = 0.0;
         for force in &state.near.force {
-            sum = plus(sum, 1.0, *force);
+            sum = along(sum, 1.0, *force);
             size += squared(*force).sqrt();
         }
         assert!(squared(sum).sqrt() < 1e-12 * size, "{sum:?} of {size}");

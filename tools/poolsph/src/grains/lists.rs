@@ -12,7 +12,7 @@ use std::ops::Range;
 use contact::{Grain, History};
 use neighbours::Grid;
 use rayon::prelude::*;
-use shapes::frame::Vector;
+use shapes::frame::{Vector, difference, squared};
 
 use super::again::Again;
 use super::depth::{CELL, Depth};
@@ -171,7 +171,7 @@ impl Chunk {
                 for (at, b) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
                     if (*b as usize) > a {
                         let within = far + grains[*b as usize].radius;
-                        if squared(own.position, *at) < within * within {
+                        if squared(difference(own.position, *at)) < within * within {
                             let pair = Pair {
                                 other: *b,
                                 own: (a - first) as u16,
@@ -227,12 +227,6 @@ impl Chunk {
             }
         }
     }
-}
-
-#[inline]
-fn squared(a: Vector, b: Vector) -> f64 {
-    let d = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-    d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
 }
 
 /// All pairs.

@@ -2,10 +2,10 @@
 
 use kernels::CubicSpline;
 use particles::Matter;
+use shapes::frame::squared;
 
 use super::caloric::Caloric;
 use crate::stage::StageError;
-use crate::vector::squared;
 
 /// The error of a temperature beyond the range of the properties, of a particle at a place \[m\].
 pub(crate) fn outside(

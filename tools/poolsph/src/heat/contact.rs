@@ -16,10 +16,10 @@
 //! surface ([`crate::surface::curvature`]). The edge goes on only where it hangs over.
 
 use particles::Set;
+use shapes::frame::{difference, squared};
 
 use crate::near::{Near, Role};
 use crate::state::{ENTHALPY, TEMPERATURE, WALL, marked};
-use crate::vector::{minus, squared};
 
 use super::caloric::Caloric;
 
@@ -60,7 +60,7 @@ impl Contact {
                 let solid = !near.role[b].flows() && !marked(wall, other) && !molten(other);
                 solid
                     && 0.5 * (temperature[id] + temperature[other]) < point
-                    && squared(minus(near.position[a], near.position[b])) < reach
+                    && squared(difference(near.position[a], near.position[b])) < reach
             };
             *cold = row.index.iter().any(|b| chills(*b as usize));
         });
@@ -77,7 +77,7 @@ impl Contact {
         near.each_row(&mut self.chilled, |a, row, chilled| {
             let id = near.id[a] as usize;
             let touched = |b: &u32| {
-                let apart = minus(near.position[a], near.position[*b as usize]);
+                let apart = difference(near.position[a], near.position[*b as usize]);
                 molten(b) && squared(apart) < reach
             };
             if !marked(wall, id) && row.index.iter().any(touched) {

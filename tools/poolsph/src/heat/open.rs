@@ -8,9 +8,11 @@
 //! would run away to 0 K. All images of a particle together take heat and give none: where the plate is hotter the nearer
 //! it comes to the face, as behind a torch that has left it, its continuation would be a source.
 
+use shapes::frame::distance;
+
 use super::caloric::Caloric;
 use super::parameters::Parameters;
-use crate::rest::{Link, Plane, distance};
+use crate::rest::{Link, Plane};
 
 /// The open faces of the plate.
 #[derive(Debug, Clone)]

@@ -6,9 +6,8 @@
 
 use std::collections::HashMap;
 
+use shapes::frame::{difference, dot, squared};
 use torch::Stand;
-
-use crate::vector::{dot, minus, squared};
 
 /// No farther aside than this stands what is before a particle, in spacings.
 const ASIDE: f64 = 0.75;
@@ -46,7 +45,7 @@ impl Shade {
         let around = (-1..=1).flat_map(|p| (-1..=1).map(move |q| [i + p, j + q]));
         let others = around.filter_map(|cell| self.cells.get(&cell)).flatten();
         let front = others.fold(0.0_f64, |most, other| {
-            let way = minus(*other, x);
+            let way = difference(*other, x);
             let nearer = -dot(way, self.into);
             let aside = squared(way) - nearer * nearer;
             if aside > (ASIDE * self.d).powi(2) {

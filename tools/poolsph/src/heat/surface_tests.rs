@@ -5,6 +5,7 @@ use std::sync::Arc as Shared;
 
 use particles::Matter;
 use run::property::{Formula, Property};
+use shapes::frame::dot;
 
 use super::caloric::tests::plain;
 use super::*;
@@ -12,7 +13,6 @@ use crate::patch::{self, Patch, Patches};
 use crate::stage::Stage;
 use crate::state::{ENTHALPY, Particle, State, TEMPERATURE, phase};
 use crate::surface::Surface;
-use crate::vector::dot;
 
 pub(super) const METAL: Matter = Matter {
     density: 1.0,

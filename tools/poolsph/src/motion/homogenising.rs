@@ -29,11 +29,11 @@ use particles::Matter;
 use rayon::prelude::*;
 
 use neighbours::ROWS;
+use shapes::frame::{along, difference, squared};
 
 use super::lattice::Lattice;
 use super::step::{Solved, Step, Tolerance};
 use crate::near::{Near, Role};
-use crate::vector::{minus, plus, squared};
 
 /// s: half of what the stiffest mode of the lattice would stand.
 const STRIDE: f64 = 0.5;
@@ -83,7 +83,7 @@ impl Homogenising {
         self.shift.resize(n, [0.0; 3]);
         self.smooth.resize(n, [0.0; 3]);
         for (x, u) in near.position.iter_mut().zip(&*predicted) {
-            *x = plus(*x, step.dt, *u);
+            *x = along(*x, step.dt, *u);
         }
         while solved.sweeps < tolerance.sweeps_max {
             near.weigh();
@@ -95,14 +95,14 @@ impl Homogenising {
             self.shift(near, lattice, step);
             self.smooth(near, lattice);
             for (x, shift) in near.position.iter_mut().zip(&self.smooth) {
-                *x = plus(*x, 1.0, *shift);
+                *x = along(*x, 1.0, *shift);
             }
             solved.sweeps += 1;
         }
         let ends = near.position.iter().zip(&self.start).zip(&near.role);
         for (u, ((end, start), role)) in predicted.iter_mut().zip(ends) {
             if *role == Role::Liquid {
-                *u = minus(*end, *start).map(|x| x / step.dt);
+                *u = difference(*end, *start).map(|x| x / step.dt);
             }
         }
         near.position.clone_from(&self.start);
@@ -120,11 +120,11 @@ impl Homogenising {
             }
             let (mut lever, mut weight) = ([0.0; 3], own);
             for (b, w) in row.values() {
-                lever = plus(lever, w, minus(position[b], position[a]));
+                lever = along(lever, w, difference(position[b], position[a]));
                 weight += w;
             }
-            let centre = plus(position[a], 1.0 / weight, lever);
-            let at = |place| kernel.value(squared(minus(place, centre)).sqrt());
+            let centre = along(position[a], 1.0 / weight, lever);
+            let at = |place| kernel.value(squared(difference(place, centre)).sqrt());
             let around = row.index.iter().map(|b| at(position[*b as usize]));
             let number = around.fold(at(position[a]), |sum, w| sum + w);
             *error = (number / lattice.number - 1.0).max(0.0);
@@ -158,9 +158,9 @@ impl Homogenising {
                     let mut stretched = 0.0;
                     for (&b, &slope) in chunk.row(k).iter().zip(&pairs.slope[chunk.range(k)]) {
                         let b = b as usize;
-                        let dx = minus(position[a], position[b]);
+                        let dx = difference(position[a], position[b]);
                         let weight = f64::from(slope) * (error[a] + error[b]);
-                        *shift = plus(*shift, -scale * weight, dx);
+                        *shift = along(*shift, -scale * weight, dx);
                         stretched -= weight * squared(dx);
                     }
                     *virial += share * stretched;
@@ -176,7 +176,7 @@ impl Homogenising {
             *out = shift[a];
             if role[a] == Role::Liquid {
                 for (b, w) in row.values().filter(|(b, _)| role[*b] == Role::Liquid) {
-                    *out = plus(*out, exchange * w, minus(shift[b], shift[a]));
+                    *out = along(*out, exchange * w, difference(shift[b], shift[a]));
                 }
             }
         });

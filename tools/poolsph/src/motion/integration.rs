@@ -3,6 +3,7 @@
 
 use particles::{Column, Matter, POSITION};
 use rayon::prelude::*;
+use shapes::frame::{along, squared};
 use steps::{Figure, Limit};
 
 use super::around::Around;
@@ -20,7 +21,6 @@ use crate::near::{Near, Role};
 use crate::stage::{Stage, StageError};
 use crate::state::{PHASE, State, TEMPERATURE, VELOCITY, phase};
 use crate::sweep::GRAIN;
-use crate::vector::{plus, squared};
 
 /// A particle may cross this part of its diameter in one substep.
 const COURANT: f64 = 0.4;
@@ -89,7 +89,7 @@ impl Motion {
         points
             .with_min_len(GRAIN)
             .map(|((role, u), force)| match role {
-                Role::Liquid => plus(plus(*u, dt, gravity), dt / metal.density, *force),
+                Role::Liquid => along(along(*u, dt, gravity), dt / metal.density, *force),
                 _ => [0.0; 3],
             })
             .collect_into_vec(&mut self.predicted);
@@ -131,7 +131,7 @@ impl Motion {
         let points = near.position.par_iter_mut().zip(&near.velocity);
         points
             .with_min_len(GRAIN)
-            .for_each(|(x, u)| *x = plus(*x, dt, *u));
+            .for_each(|(x, u)| *x = along(*x, dt, *u));
         if self.parameters.method == Method::DivergenceFree {
             self.divergence_free.even(near, dt);
         }

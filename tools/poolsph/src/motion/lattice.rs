@@ -6,8 +6,7 @@
 
 use kernels::CubicSpline;
 use particles::Matter;
-
-use crate::vector::{plus, squared};
+use shapes::frame::{along, squared};
 
 /// Waves per axis that the search for the stiffest mode tries.
 const WAVES: u32 = 9;
@@ -72,7 +71,7 @@ fn stiffest(points: &[([f64; 3], f64)]) -> f64 {
         let mut sum = [0.0; 3];
         for (r, slope) in points {
             let phase = k[0] * r[0] + k[1] * r[1] + k[2] * r[2];
-            sum = plus(sum, slope * phase.sin(), *r);
+            sum = along(sum, slope * phase.sin(), *r);
         }
         largest = largest.max(squared(sum));
     }

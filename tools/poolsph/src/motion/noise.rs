@@ -17,13 +17,13 @@
 
 use particles::Matter;
 use rayon::prelude::*;
+use shapes::frame::along;
 
 use super::around::Around;
 use super::lattice::Lattice;
 use super::viscosity::Viscosity;
 use crate::near::Near;
 use crate::sweep::GRAIN;
-use crate::vector::plus;
 
 /// Largest part of a mode that a step may take.
 const PART: f64 = 0.5;
@@ -77,7 +77,7 @@ impl Noise {
         around.sum(near, &self.first);
         let rows = predicted.par_iter_mut().zip(&self.first).zip(&around.sums);
         rows.with_min_len(GRAIN).for_each(|((out, own), sum)| {
-            *out = plus(*out, 1.0, difference(own, sum, volume));
+            *out = along(*out, 1.0, difference(own, sum, volume));
         });
     }
 

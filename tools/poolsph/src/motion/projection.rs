@@ -29,13 +29,13 @@ use particles::Matter;
 use rayon::prelude::*;
 
 use neighbours::ROWS;
+use shapes::frame::{difference, dot, squared};
 
 use super::lattice::Lattice;
 use super::push::Push;
 use super::step::{Solved, Step, Tolerance};
 use crate::near::{Near, Role};
 use crate::sweep::{GRAIN, carried, middle, summed, summed_double};
-use crate::vector::{dot, minus, squared};
 
 /// Step of the gradient in parts of what the stiffest mode of the filled lattice allows; disorder is somewhat stiffer.
 const STEP: f64 = 0.87;
@@ -199,7 +199,7 @@ impl Projection {
         self.origin = origin;
         let places = near.position.par_iter().with_min_len(GRAIN);
         places
-            .map(|x| minus(*x, origin).map(|x| x as f32))
+            .map(|x| difference(*x, origin).map(|x| x as f32))
             .collect_into_vec(&mut self.place);
         self.change.resize(n, [0.0; 4]);
         let scale = dt * dt * volume * force;
@@ -248,12 +248,17 @@ impl Projection {
             .with_min_len(GRAIN)
             .map(|((u, acc), x)| {
                 let u: [f64; 3] = std::array::from_fn(|i| u[i] + step.dt * f64::from(acc[i]));
-                [u[0], u[1], u[2], dot(u, minus(*x, origin))]
+                [u[0], u[1], u[2], dot(u, difference(*x, origin))]
             })
             .collect_into_vec(&mut self.moved);
         near.complete(&mut self.moved, |[u, v, w, _], k, turn| {
             let u = turn.vector([u, v, w]);
-            [u[0], u[1], u[2], dot(u, minus(near.position[k], origin))]
+            [
+                u[0],
+                u[1],
+                u[2],
+                dot(u, difference(near.position[k], origin)),
+            ]
         });
         let moved = &self.moved;
         near.each_row(
@@ -261,7 +266,7 @@ impl Projection {
             #[inline(always)]
             |a, row, residual| {
                 let [p, q, r, turned] = summed_double(row.index, row.slope, moved);
-                let (x, [u, v, w, _]) = (minus(near.position[a], origin), moved[a]);
+                let (x, [u, v, w, _]) = (difference(near.position[a], origin), moved[a]);
                 let rate = dot([u, v, w], near.gradient[a]) - dot([p, q, r], x) + turned;
                 let mut full = 1.0;
                 if near.role[a] != Role::Liquid {

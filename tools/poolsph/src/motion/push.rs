@@ -1,11 +1,11 @@
 //! The force of the pressure that was found, in double precision: what one particle gets its neighbour loses, to round-off.
 
 use rayon::prelude::*;
+use shapes::frame::along;
 
 use super::step::Step;
 use crate::near::{Near, Role};
 use crate::sweep::GRAIN;
-use crate::vector::plus;
 
 /// Scratch of the force, `[m]` in the order of [`Near`].
 #[derive(Debug, Clone, Default)]
@@ -40,7 +40,7 @@ impl Push {
             .for_each(|((((virial, u), role), (sum, stretched)), p)| {
                 if *role == Role::Liquid {
                     *virial -= share * stretched;
-                    *u = plus(*u, -step.dt * scale, *sum);
+                    *u = along(*u, -step.dt * scale, *sum);
                 } else {
                     *virial = f64::from(*p);
                 }

@@ -35,6 +35,7 @@
 use kernels::CubicSpline;
 use particles::Matter;
 use rayon::prelude::*;
+use shapes::frame::{along, difference, squared};
 
 use super::around::Around;
 use super::lattice::Lattice;
@@ -42,7 +43,6 @@ use super::law::Law;
 use crate::near::{Near, Role};
 use crate::stage::StageError;
 use crate::sweep::GRAIN;
-use crate::vector::{minus, plus, squared};
 
 /// Newtonian viscosity of the liquid.
 #[derive(Debug, Clone)]
@@ -198,7 +198,7 @@ impl Viscosity {
         near.each_row(&mut self.inverse, |a, row, inverse| {
             let from = near.position[a];
             let squares =
-                |(b, slope): (usize, f64)| -slope * squared(minus(near.position[b], from));
+                |(b, slope): (usize, f64)| -slope * squared(difference(near.position[b], from));
             let present = row.slopes().map(squares).sum::<f64>() / 3.0;
             let lack = 1.0 - (near.number[a] - own) / number;
             let missing = if lack > LACKS { lack * moment } else { 0.0 };
@@ -223,9 +223,9 @@ impl Viscosity {
                 } else {
                     (own, u.map(|u| -u))
                 };
-                sum = plus(sum, -slope * mean * (m + inverse[b]), minus(to, u));
+                sum = along(sum, -slope * mean * (m + inverse[b]), difference(to, u));
             }
-            *out = plus(*out, part, sum);
+            *out = along(*out, part, sum);
         });
     }
 
@@ -242,7 +242,7 @@ impl Viscosity {
                     // Without neighbours the number is zero.
                     let weight = (number - own).max(0.0);
                     let sum = std::array::from_fn(|i| sum[i] - weight * u[i]);
-                    *out = plus(*out, dt * self.scale, sum);
+                    *out = along(*out, dt * self.scale, sum);
                 }
             });
     }
@@ -262,13 +262,17 @@ impl Viscosity {
                 } else {
                     own
                 };
-                *out = plus(*out, w * mean, minus(near.velocity[b], near.velocity[a]));
+                *out = along(
+                    *out,
+                    w * mean,
+                    difference(near.velocity[b], near.velocity[a]),
+                );
                 *least = least.min(mean);
             }
         });
         let sums = self.sums.par_iter().with_min_len(GRAIN);
         (predicted.par_iter_mut().zip(sums))
-            .for_each(|(u, (sum, _))| *u = plus(*u, dt * scale, *sum));
+            .for_each(|(u, (sum, _))| *u = along(*u, dt * scale, *sum));
     }
 }
 

@@ -2,6 +2,7 @@
 
 use kernels::CubicSpline;
 use rayon::prelude::*;
+use shapes::frame::{difference, dot, squared};
 
 use super::area::Polygon;
 use super::columns::{Columns, Stood};
@@ -10,7 +11,6 @@ use super::{Cloud, tangents};
 use crate::faces::Turn;
 use crate::patch::Patch;
 use crate::sweep::summed;
-use crate::vector::{dot, minus, squared};
 
 /// A particle deeper than this many spacings is not of the band.
 const BAND: f64 = 1.75;
@@ -191,7 +191,7 @@ impl Band {
         rows.with_min_len(GRAIN).for_each(|(weights, &k)| {
             weights.clear();
             weights.extend(cloud.row(k as usize).iter().map(|&b| {
-                let dx = minus(cloud.places[b as usize], cloud.places[k as usize]);
+                let dx = difference(cloud.places[b as usize], cloud.places[k as usize]);
                 (volume * kernel.value(squared(dx).sqrt())) as f32
             }));
         });
@@ -243,7 +243,7 @@ impl Band {
                         continue;
                     }
                     let other = &patches[b];
-                    let dx = minus(cloud.places[b], to);
+                    let dx = difference(cloud.places[b], to);
                     *weight *= squared(other.gradient).sqrt() as f32;
                     let rise = 0.5 * (dot(at.normal, dx) + dot(other.normal, dx));
                     risen += f64::from(*weight) * rise;
@@ -298,7 +298,7 @@ impl Band {
         let mut polygon = Polygon::square(PATCH * spacing);
         for &b in cloud.row(k) {
             let b = b as usize;
-            let to = minus(cloud.places[b], cloud.places[k]);
+            let to = difference(cloud.places[b], cloud.places[k]);
             let rise = dot(to, own.normal);
             let mut offset = 0.5 * squared(to) - own.depth * rise;
             let other = &patches[b];
@@ -335,7 +335,7 @@ impl Band {
             let b = b as usize;
             let other = &patches[b];
             if self.within[b] && other.area > 0.0 && other.normal[2] > 0.5 * STEEP {
-                let [x, y, _] = minus(cloud.places[b], cloud.places[k]);
+                let [x, y, _] = difference(cloud.places[b], cloud.places[k]);
                 let above = other.depth / other.normal[2];
                 let lift = above * above - height * height;
                 polygon.cut([x, y], 0.5 * (x * x + y * y + lift));

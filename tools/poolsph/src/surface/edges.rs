@@ -5,9 +5,10 @@
 //! corners, and a row of single particles has no plane that ends at all. Where particles have left their lattice, the planes count too:
 //! the cells of those that stick out farthest, of all layers, would cover more than there is.
 
+use shapes::frame::{difference, squared};
+
 use super::Cloud;
 use crate::faces::Turn;
-use crate::vector::{minus, squared};
 
 /// The sides -x, +x, -y, +y.
 const SIDES: [[f64; 3]; 4] = [
@@ -52,7 +53,8 @@ impl Open {
         let (mut open, mut first, mut askew) = (0b1111, false, false);
         let mut highest = HIGHEST;
         for &b in cloud.row(k) {
-            let [x, y, z] = minus(cloud.places[b as usize], cloud.places[k]).map(|x| x / spacing);
+            let [x, y, z] =
+                difference(cloud.places[b as usize], cloud.places[k]).map(|x| x / spacing);
             if z.abs() > UPRIGHT {
                 continue;
             }

@@ -26,6 +26,7 @@ use kernels::CubicSpline;
 use neighbours::{Grid, Lists, ROWS};
 use particles::{Column, Matter, POSITION};
 use rayon::prelude::*;
+use shapes::frame::{along, cross, difference, squared};
 use steps::Figure;
 
 use self::band::Band;
@@ -36,7 +37,6 @@ use crate::near::Role;
 use crate::patch::{self, AREA, Patch, Patches};
 use crate::stage::{Stage, StageError};
 use crate::state::{PHASE, State, phase};
-use crate::vector::{minus, plus, squared};
 
 /// A particle that owns this part of d^2 of the surface counts as surface.
 const EXPOSED: f64 = 0.1;
@@ -175,10 +175,10 @@ impl Surface {
     fn colour(&self, cloud: &Cloud<'_>, k: usize) -> Patch {
         let (mut number, mut gradient) = (self.kernel.value(0.0), [0.0; 3]);
         for &b in cloud.row(k) {
-            let dx = minus(cloud.places[k], cloud.places[b as usize]);
+            let dx = difference(cloud.places[k], cloud.places[b as usize]);
             let sample = self.kernel.sample(squared(dx).sqrt());
             number += sample.value;
-            gradient = plus(gradient, sample.slope, dx);
+            gradient = along(gradient, sample.slope, dx);
         }
         self.patch(number, gradient)
     }
@@ -211,16 +211,6 @@ pub fn tangents(normal: [f64; 3]) -> ([f64; 3], [f64; 3]) {
     let length = squared(u).sqrt();
     let u = u.map(|x| x / length);
     (u, cross(normal, u))
-}
-
-/// a x b.
-#[must_use]
-pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 impl Stage for Surface {

@@ -1,8 +1,9 @@
 //! Areas of a plane, a tilted plane and a sphere, for aligned, turned and jittered lattices.
 
+use shapes::frame::dot;
+
 use super::*;
 use crate::state::{PHASE, Particle, phase};
-use crate::vector::dot;
 
 const METAL: Matter = Matter {
     density: 7850.0,

@@ -4,11 +4,12 @@
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
+use shapes::frame::{cross, difference};
 
 use crate::magnetic::driven::winding::{self, Windings};
 use crate::magnetic::fields::{Fields, cross_mean};
 use crate::magnetic::medium::interface::Acting;
-use crate::magnetic::source::{C, Loop, Source, Wire, cross, minus};
+use crate::magnetic::source::{C, Loop, Source, Wire};
 use crate::stencils::region::Region;
 
 /// Pieces of which a loop is made where its force is summed.
@@ -210,7 +211,7 @@ fn opposite(forces: Vec<[f64; 3]>) -> [f64; 3] {
 fn biot_savart(currents: &[([f64; 3], [C; 3])], p: [f64; 3]) -> [C; 3] {
     let mut sum = [C::new(0.0, 0.0); 3];
     for (place, moment) in currents {
-        let d = minus(p, *place);
+        let d = difference(p, *place);
         let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         let inverse = (square * square.sqrt()).recip();
         let re = cross(moment.map(|m| m.re), d);

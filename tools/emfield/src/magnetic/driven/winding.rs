@@ -13,8 +13,9 @@ use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex;
 use rayon::prelude::*;
+use shapes::frame::{cross, difference, dot};
 
-use crate::magnetic::source::{C, Loop, MU0, Wire, cross, dot, minus};
+use crate::magnetic::source::{C, Loop, MU0, Wire};
 use crate::magnetic::unknown::{Unknown, component};
 use crate::stencils::region::{Kind, Region};
 use crate::stencils::sides::{Sides, share_along};
@@ -54,7 +55,7 @@ impl Winding {
             Flow::Turn => [ZERO, self.density, ZERO],
             Flow::Along => [ZERO, ZERO, self.density],
             Flow::Ring(centre, axis) => {
-                let around = cross(axis, minus(place, centre));
+                let around = cross(axis, difference(place, centre));
                 let size = dot(around, around).sqrt();
                 around.map(|x| self.density * (x / size))
             }
@@ -203,7 +204,7 @@ impl Part {
             };
             line.potential(place).map(|a| line.current * (a / MU0))
         } else {
-            let d = minus(place, self.place);
+            let d = difference(place, self.place);
             let share = (4.0 * PI * dot(d, d).sqrt()).recip();
             self.moment.map(|m| m * share)
         }

@@ -14,10 +14,11 @@
 //! their multipole with the harmonic h is `int (1 - nu) B . curl(h e) dV`, e along the component.
 
 use rayon::prelude::*;
+use shapes::frame::{cross, dot};
 
 use crate::magnetic::medium::law::Law;
 use crate::magnetic::open::multipoles::Multipoles;
-use crate::magnetic::source::{C, Source, cross, dot};
+use crate::magnetic::source::{C, Source};
 use crate::magnetic::unknown::{Unknown, component, local};
 use crate::stencils::region::{Face, Kind, Region};
 use crate::stencils::sides::Sides;

@@ -1,13 +1,15 @@
 //! Bound currents of magnetised bodies in space, seen from afar: with the harmonic h their moments are
 //! `int (1 - nu) B x grad h dV`.
 
+use shapes::frame::cross;
+
 use crate::magnetic::charge::parts::{Parts, add};
 use crate::magnetic::charge::potential::Side;
 use crate::magnetic::charge::rate::Rate;
 use crate::magnetic::medium::interface::Permeable;
 use crate::magnetic::medium::mixing::{Mix, mixed};
 use crate::magnetic::open::multipoles::Multipoles;
-use crate::magnetic::source::{C, Source, cross};
+use crate::magnetic::source::{C, Source};
 use crate::stencils::region::Region;
 
 /// The moment of bound currents with one harmonic.

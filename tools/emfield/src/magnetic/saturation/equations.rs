@@ -20,10 +20,11 @@
 //! All derivatives are those of the rows, so that `nu_0` and `nu_1` cancel in the solution.
 
 use rayon::prelude::*;
+use shapes::frame::{along, cross, difference, dot, length};
 use wls::{Row, Stencils};
 
 use crate::magnetic::medium::law::Curve;
-use crate::magnetic::source::{C, cross, dot};
+use crate::magnetic::source::C;
 use crate::magnetic::unknown::{Unknown, component, local};
 use crate::stencils::region::Region;
 use crate::stencils::sides::Sides;
@@ -94,18 +95,9 @@ pub struct Seen<const K: usize> {
 impl Medium<'_> {
     /// `(nu_0 - nu) B`.
     pub(crate) fn rest(&self, flux: [f64; 3]) -> [f64; 3] {
-        let local = self.curve.at(size(flux));
+        let local = self.curve.at(length(flux));
         flux.map(|b| (self.level - self.around * local.reluctivity) * b)
     }
-}
-
-fn size(vector: [f64; 3]) -> f64 {
-    dot(vector, vector).sqrt()
-}
-
-/// A vector and some of another.
-fn add(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
-    std::array::from_fn(|k| a[k] + share * b[k])
 }
 
 /// A row of values with several components.
@@ -195,15 +187,15 @@ impl<'a, const D: usize> Saturation<'a, D> {
         let one = |medium: &Medium<'_>, normal: [f64; 3], flux: [f64; 3], rest: [f64; 3]| {
             let level = medium.level;
             let through = dot(flux, normal);
-            let along = add(flux, normal, -through);
-            let rest = add(rest, normal, -dot(rest, normal));
-            let kept: [f64; 3] = std::array::from_fn(|k| 2.0 * level * along[k] - rest[k]);
-            let length = size(kept);
-            let [level, wanted] = [level, length].map(|part| part / medium.around);
+            let tangential = along(flux, -through, normal);
+            let rest = along(rest, -dot(rest, normal), normal);
+            let kept: [f64; 3] = std::array::from_fn(|k| 2.0 * level * tangential[k] - rest[k]);
+            let size = length(kept);
+            let [level, wanted] = [level, size].map(|part| part / medium.around);
             let t = medium.curve.along(through, level, wanted);
-            let own = kept.map(|w| if length > 0.0 { w / length * t } else { 0.0 });
-            let rest = medium.rest(add(own, normal, through));
-            (rest, std::array::from_fn(|k| own[k] - along[k]))
+            let own = kept.map(|w| if size > 0.0 { w / size * t } else { 0.0 });
+            let rest = medium.rest(along(own, through, normal));
+            (rest, std::array::from_fn(|k| own[k] - tangential[k]))
         };
         let face = |number: usize| {
             let face = &self.faces[number];
@@ -211,7 +203,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
             let side = |k: usize| {
                 let (flux, rest) = (seen.on[number][k], sheets[number][k]);
                 // Beside an axis the normal is not quite one of length 1.
-                let unit = face.normal.map(|n| n / size(face.normal));
+                let unit = face.normal.map(|n| n / length(face.normal));
                 media[k].map_or(([0.0; 3], [0.0; 3]), |medium| one(medium, unit, flux, rest))
             };
             let [a, b] = [0, 1].map(side);
@@ -232,7 +224,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
             }
         }
         for (face, [inner, outer]) in self.faces.iter().zip(sheets) {
-            let sheet = cross(face.normal, add(*outer, *inner, -1.0));
+            let sheet = cross(face.normal, difference(*outer, *inner));
             right[face.point] = self.component(&self.beside(face.point), sheet);
             count(&mut moments, *inner, &face.seen);
         }
@@ -271,20 +263,20 @@ impl<'a, const D: usize> Saturation<'a, D> {
             laplacian[0] += self.unknown.around() * drift;
             slopes[0][0] += off * seconds[0][0][0];
         }
-        let flux = add(self.curl(&place, a[i], slopes), point.source, wave);
-        let here = medium.curve.at(size(flux));
+        let flux = along(self.curl(&place, a[i], slopes), wave, point.source);
+        let here = medium.curve.at(length(flux));
         let mut gradient = [0.0; 3];
         for axis in 0..D {
-            let mut along = self.curl(&place, slopes[axis], seconds[axis]);
+            let mut slope = self.curl(&place, slopes[axis], seconds[axis]);
             if self.region.axial && axis == 0 {
                 // B = (-r du/dz, 2 u + r du/dr).
-                along[0] -= slopes[1][0];
-                along[2] += slopes[0][0];
+                slope[0] -= slopes[1][0];
+                slope[2] += slopes[0][0];
             }
-            let along = add(along, point.slopes[axis], wave);
+            let slope = along(slope, wave, point.slopes[axis]);
             let mut unit = [0.0; D];
-            unit[axis] = medium.around * here.bend * dot(flux, along);
-            gradient = add(gradient, self.region.raise(unit), 1.0);
+            unit[axis] = medium.around * here.bend * dot(flux, slope);
+            gradient = along(gradient, 1.0, self.region.raise(unit));
         }
         let turned: [f64; K] = self.component(&place, cross(gradient, flux));
         let reluctivity = medium.around * here.reluctivity;
@@ -309,7 +301,7 @@ impl<'a, const D: usize> Saturation<'a, D> {
                 return [0.0; 3];
             }
             let slopes = slopes(stencils, face.point, a);
-            add(self.curl(&place, a[face.point], slopes), face.source, wave)
+            along(self.curl(&place, a[face.point], slopes), wave, face.source)
         })
     }
 

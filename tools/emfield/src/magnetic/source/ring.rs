@@ -1,7 +1,9 @@
 //! A circular loop of thin wire.
 
+use shapes::frame::{cross, difference, dot};
+
 use super::elliptic::loop_integral;
-use super::{C, MU0, cross, dot, minus};
+use super::{C, MU0};
 
 /// A circular loop. Inside the wire the fields are those on its surface, turned to zero linearly:
 /// no place has an infinite field.
@@ -50,7 +52,7 @@ impl Loop {
     }
 
     fn around(&self, p: [f64; 3]) -> Around {
-        let d = minus(p, self.centre);
+        let d = difference(p, self.centre);
         let height = dot(d, self.axis);
         let off = [0, 1, 2].map(|k| d[k] - height * self.axis[k]);
         let rho = dot(off, off).sqrt();

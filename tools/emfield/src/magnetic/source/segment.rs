@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::{C, MU0, cross, dot, minus};
+use shapes::frame::{cross, difference, dot};
+
+use super::{C, MU0};
 
 /// A straight piece of wire. Within `wire_radius` of its core the field falls linearly to zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +22,7 @@ pub struct Segment {
 impl Segment {
     /// Unit vector along the wire, and its length \[m\].
     fn along(&self) -> ([f64; 3], f64) {
-        let d = minus(self.to, self.from);
+        let d = difference(self.to, self.from);
         let length = dot(d, d).sqrt();
         (d.map(|x| x / length), length)
     }
@@ -30,7 +32,7 @@ impl Segment {
     #[must_use]
     pub fn potential(&self, p: [f64; 3]) -> [f64; 3] {
         let (t, length) = self.along();
-        let [a, b] = [minus(p, self.from), minus(p, self.to)];
+        let [a, b] = [difference(p, self.from), difference(p, self.to)];
         let [x, y] = [dot(a, t), dot(b, t)];
         let square = (dot(a, a) - x * x).max(self.wire_radius * self.wire_radius);
         let sum = (square + x * x).sqrt() + (square + y * y).sqrt();
@@ -42,7 +44,7 @@ impl Segment {
     #[must_use]
     pub fn flux(&self, p: [f64; 3]) -> [f64; 3] {
         let (t, _) = self.along();
-        let [a, b] = [minus(p, self.from), minus(p, self.to)];
+        let [a, b] = [difference(p, self.from), difference(p, self.to)];
         let [x, y] = [dot(a, t), dot(b, t)];
         let around = cross(t, a);
         let least = self.wire_radius * self.wire_radius;
@@ -54,7 +56,7 @@ impl Segment {
     /// Middles of `count` equal pieces with the tangent times their length \[m\].
     #[must_use]
     pub fn pieces(&self, count: usize) -> Vec<([f64; 3], [f64; 3])> {
-        let d = minus(self.to, self.from);
+        let d = difference(self.to, self.from);
         (0..count)
             .map(|k| {
                 let s = (k as f64 + 0.5) / count as f64;

@@ -1,6 +1,7 @@
 use std::f64::consts::PI;
 
 use num_complex::Complex;
+use shapes::frame::{cross, difference, dot};
 
 use super::*;
 
@@ -169,7 +170,7 @@ fn filaments_carry_the_current_with_its_middle_and_spread() {
         let parts = parts.iter().map(|l| (l.current / one.current).re * f(l));
         parts.sum::<f64>()
     };
-    let height = |l: &Loop| dot(minus(l.centre, one.centre), one.axis);
+    let height = |l: &Loop| dot(difference(l.centre, one.centre), one.axis);
     assert!((sum(&|_| 1.0) - 1.0).abs() < 1e-14);
     assert!((sum(&|l| l.radius) - 0.7).abs() < 1e-14);
     assert!((sum(&|l| (l.radius - 0.7).powi(2)) - 0.0025).abs() < 1e-15);

@@ -1,6 +1,8 @@
 //! A uniform field.
 
-use super::{Phasor, cross, dot, minus};
+use shapes::frame::{cross, difference, dot};
+
+use super::Phasor;
 
 /// What a uniform field comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +28,7 @@ impl Uniform {
     #[must_use]
     pub fn potential(&self, p: [f64; 3]) -> Phasor {
         let (along, size) = match self.origin {
-            Origin::Solenoid(place) => (minus(p, place), 0.5),
+            Origin::Solenoid(place) => (difference(p, place), 0.5),
             Origin::Sheets(normal) => (normal, dot(normal, p)),
         };
         let [re, im] = [self.flux.map(|b| b.re), self.flux.map(|b| b.im)];

@@ -15,6 +15,7 @@
 use neighbours::Grid;
 use particles::{POSITION, Rows, sweep};
 use shapes::Body;
+use shapes::frame::distance;
 use steps::Limit;
 
 use super::balls::{Across, Ball, balls};
@@ -156,7 +157,7 @@ impl Contact {
             if own.party != other.party {
                 continue;
             }
-            let apart = distance(&own.rest, &other.rest);
+            let apart = distance(own.rest, other.rest);
             if !self.joined(own, other, apart) {
                 // What stood nearer before it broke touches no sooner: nothing may push where nothing is strained.
                 let push = self.pair(own, other, party.spacing.min(apart), party.stiffness);
@@ -260,10 +261,6 @@ impl Contact {
         let [x, y, z] = normal.map(|n| force * n);
         [x, y, z, stored, lost]
     }
-}
-
-fn distance(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
 }
 
 impl Stage for Contact {

@@ -4,8 +4,9 @@
 //! too close is pushed out too far: drops of three particles across threw off single ones at three times their speed where
 //! they went 0.3 d in a step. What flies as a whole has no such limit, nor has a pool that a wall carries along.
 
+use shapes::frame::{difference, squared};
+
 use crate::near::{Near, Role};
-use crate::vector::{minus, squared};
 
 /// Way of neighbours against one another in a step, in spacings.
 const LONGEST: f64 = 0.1;
@@ -26,7 +27,7 @@ impl Closing {
             if near.role[a] == Role::Liquid {
                 let u = near.velocity[a];
                 let others = row.index.iter().map(|b| near.velocity[*b as usize]);
-                *most = others.fold(0.0, |most, other| squared(minus(other, u)).max(most));
+                *most = others.fold(0.0, |most, other| squared(difference(other, u)).max(most));
             }
         });
         let most = self.squares.iter().fold(0.0, |most: f64, x| most.max(*x));

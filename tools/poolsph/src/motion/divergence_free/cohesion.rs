@@ -19,12 +19,12 @@
 
 use kernels::moments::within;
 use particles::Matter;
+use shapes::frame::{along, difference, dot, squared};
 
 use super::filled::Filled;
 use super::openness::lack;
 use crate::forces::tension::mean_field;
 use crate::near::{Near, Role};
-use crate::vector::{dot, minus, plus, squared};
 
 /// Lack of neighbours, in parts of the lattice's, from which on pairs pull, and at which they do so wholly. A plane surface lacks 0.22,
 /// a thread of two by two particles 0.41, a film of one layer 0.44, its edge and a thread of one by two 0.60, a row 0.77, a
@@ -92,7 +92,7 @@ impl Cohesion {
             }
             for b in row.index.iter().map(|b| *b as usize) {
                 let of = near.images().original(b);
-                let way = minus(near.position[b], near.position[a]);
+                let way = difference(near.position[b], near.position[a]);
                 let (square, pulled) = (squared(way), few[a].max(few[of]));
                 if (pulled <= 0.0 && square >= closest) || square <= 0.0 {
                     continue;
@@ -104,7 +104,7 @@ impl Cohesion {
                     near.tension[a] * (1.0 - near.dry.get(of).copied().unwrap_or(0.0))
                 };
                 let far = square.sqrt();
-                let apart = dot(minus(near.velocity[b], near.velocity[a]), way) / far;
+                let apart = dot(difference(near.velocity[b], near.velocity[a]), way) / far;
                 let q = far / d;
                 let held = if apart < 0.0 {
                     pulled.max(1.0 - within(q, CLOSE))
@@ -113,21 +113,21 @@ impl Cohesion {
                 };
                 let damping = DAMPED * (2.0 - q).clamp(0.0, 1.0) * (gamma * mass).sqrt();
                 let force = pulled * strength * gamma * d * pull(q) + held * damping * apart;
-                change.velocity = plus(change.velocity, share * force / far, way);
+                change.velocity = along(change.velocity, share * force / far, way);
                 let overlap = PARTED * (CLOSE[0] * d - far).max(0.0);
                 let theirs = if flows { 0.5 } else { 1.0 };
-                change.place = plus(change.place, -theirs * overlap / far, way);
+                change.place = along(change.place, -theirs * overlap / far, way);
             }
         });
         for (u, change) in predicted.iter_mut().zip(&self.changes) {
-            *u = plus(*u, 1.0, change.velocity);
+            *u = along(*u, 1.0, change.velocity);
         }
     }
 
     /// Moves particles apart that were too close when they were pulled.
     pub(super) fn part(&self, near: &mut Near) {
         for (x, change) in near.position.iter_mut().zip(&self.changes) {
-            *x = plus(*x, 1.0, change.place);
+            *x = along(*x, 1.0, change.place);
         }
     }
 
@@ -161,8 +161,8 @@ mod tests {
     use super::*;
     use crate::motion::tests::{METAL, block};
     use crate::state::{State, VELOCITY, phase};
-    use crate::surface::cross;
     use particles::POSITION;
+    use shapes::frame::cross;
 
     /// gamma [N/m] of a pool, and the step [s].
     const GAMMA: f64 = 1.3;
@@ -192,7 +192,7 @@ mod tests {
         let mut state = block(cells, phase, |_| [0.0; 3]);
         let (places, velocities) = state.metal.columns_mut((&POSITION, &VELOCITY));
         for (x, u) in places.iter_mut().zip(velocities) {
-            *x = plus(*x, METAL.spacing, random(shaken));
+            *x = along(*x, METAL.spacing, random(shaken));
             *u = random(driven);
         }
         state.gather();
@@ -250,13 +250,13 @@ mod tests {
         assert!(size > 0.0);
         let (mut sum, mut turned, mut parted) = ([0.0; 3], [0.0; 3], [0.0; 3]);
         for (a, change) in change.iter().enumerate() {
-            sum = plus(sum, 1.0, *change);
-            turned = plus(
+            sum = along(sum, 1.0, *change);
+            turned = along(
                 turned,
                 1.0 / METAL.spacing,
                 cross(near.position[a], *change),
             );
-            parted = plus(parted, 1.0 / METAL.spacing, cohesion.changes[a].place);
+            parted = along(parted, 1.0 / METAL.spacing, cohesion.changes[a].place);
         }
         for x in sum.into_iter().chain(turned).chain(parted) {
             assert!(

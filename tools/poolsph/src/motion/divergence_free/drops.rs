@@ -1,6 +1,7 @@
 //! Exact cases of what a free surface does: tension, viscosity at the surface, and damping of single particles.
 
 use particles::POSITION;
+use shapes::frame::{cross, dot};
 
 use super::*;
 use crate::forces::capillary::Capillary;
@@ -12,8 +13,6 @@ use crate::motion::viscosity::Viscosity;
 use crate::motion::{Law, Motion, Parameters};
 use crate::stage::Stage;
 use crate::state::{PHASE, State, VELOCITY, phase};
-use crate::surface::cross;
-use crate::vector::dot;
 
 /// Viscosity \[Pa s\].
 const MU: f64 = 0.004;
@@ -45,7 +44,7 @@ fn ball(cells: i32, velocity: impl Fn([f64; 3]) -> [f64; 3]) -> State {
 
 /// Sum over the particles of a vector each.
 fn sum(near: &Near, of: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
-    (0..near.len()).fold([0.0; 3], |sum, a| plus(sum, 1.0, of(a)))
+    (0..near.len()).fold([0.0; 3], |sum, a| along(sum, 1.0, of(a)))
 }
 
 /// What viscosity makes of the velocities within a second, with what it does at the surface.
@@ -122,7 +121,10 @@ fn ripples_fall_and_linear_flow_stays() {
     };
     let linear = damped(near);
     for (after, before) in linear.iter().zip(&near.velocity) {
-        assert!(squared(minus(*after, *before)).sqrt() < 1e-12, "{after:?}");
+        assert!(
+            squared(difference(*after, *before)).sqrt() < 1e-12,
+            "{after:?}"
+        );
     }
     near.velocity = noise;
     let after = damped(near);
@@ -130,7 +132,7 @@ fn ripples_fall_and_linear_flow_stays() {
     let energy = |u: &[[f64; 3]]| u.iter().map(|u| squared(*u)).sum::<f64>();
     let (first, last) = (energy(&near.velocity), energy(&after));
     assert!(last < 0.95 * first, "{last} of {first}");
-    let change = |a: usize| minus(after[a], near.velocity[a]);
+    let change = |a: usize| difference(after[a], near.velocity[a]);
     let size = near.len() as f64;
     let moved = sum(near, change).map(|x| x / size);
     let turned = sum(near, |a| cross(near.position[a], change(a)));
@@ -193,7 +195,7 @@ fn a_drop_at_rest_stays_under_its_pressure() {
     assert!(capillary < 2e-4, "{capillary}");
     // Momentum within what tension would give in that time if it pulled to one side, gamma R t.
     let momentum = liquid.iter().fold([0.0; 3], |sum, a| {
-        plus(sum, METAL.mass(), state.metal.column(&VELOCITY)[*a])
+        along(sum, METAL.mass(), state.metal.column(&VELOCITY)[*a])
     });
     let given = radius * state.time;
     assert!(

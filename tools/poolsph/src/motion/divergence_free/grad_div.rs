@@ -13,10 +13,10 @@
 //! rotation is zero.
 
 use kernels::moments::{Moments, times};
+use shapes::frame::{along, difference, dot};
 
 use super::operators::Sums;
 use crate::near::{Near, Role};
-use crate::vector::{dot, minus, plus};
 
 /// alpha in d^2. The largest value of D D^T is some 5/d^2 in disorder and at edges; twice its inverse would overshoot.
 const STRENGTH: f64 = 0.2;
@@ -54,14 +54,14 @@ impl GradDiv {
                         own
                     };
                     let both = std::array::from_fn(|i| own[i] + other[i]);
-                    let x = minus(near.position[a], near.position[b]);
-                    *change = plus(*change, slope, times(both, x));
+                    let x = difference(near.position[a], near.position[b]);
+                    *change = along(*change, slope, times(both, x));
                 }
             },
         );
         let part = STRENGTH * d * d;
         for (u, change) in u.iter_mut().zip(&self.change) {
-            *u = plus(*u, part, *change);
+            *u = along(*u, part, *change);
         }
     }
 
@@ -85,11 +85,11 @@ impl GradDiv {
                 let mut divergence = 0.0;
                 for (b, slope) in row.slopes() {
                     let step = if near.role[b].flows() {
-                        minus(moved[b], moved[a])
+                        difference(moved[b], moved[a])
                     } else {
                         moved[a].map(|u| -2.0 * u)
                     };
-                    let x = minus(near.position[a], near.position[b]);
+                    let x = difference(near.position[a], near.position[b]);
                     divergence += slope * dot(times(inverse, x), step);
                 }
                 *stretched = inverse.map(|x| divergence * x);
@@ -113,8 +113,7 @@ mod tests {
     use crate::motion::divergence_free::filled::Filled;
     use crate::motion::tests::{METAL, block};
     use crate::state::phase;
-    use crate::surface::cross;
-    use crate::vector::squared;
+    use shapes::frame::{cross, squared};
 
     /// A block of disordered particles in mm, its operators, and random velocities.
     fn cloud(cells: i32) -> (Near, Vec<Sums>, Vec<[f64; 3]>) {
@@ -160,9 +159,9 @@ mod tests {
         let after = damped(&near, &rows, &u);
         let (mut sum, mut turned, mut size) = ([0.0; 3], [0.0; 3], 0.0);
         for (a, (after, before)) in after.iter().zip(&u).enumerate() {
-            let change = minus(*after, *before);
-            sum = plus(sum, 1.0, change);
-            turned = plus(turned, 1.0 / METAL.spacing, cross(near.position[a], change));
+            let change = difference(*after, *before);
+            sum = along(sum, 1.0, change);
+            turned = along(turned, 1.0 / METAL.spacing, cross(near.position[a], change));
             size += squared(change).sqrt();
         }
         assert!(size > 1.0, "{size}");
@@ -190,7 +189,7 @@ mod tests {
                 .iter()
                 .all(|x| (3.7..6.3).contains(&(x / METAL.spacing)))
             {
-                assert!(squared(minus(*after, *before)).sqrt() < 1e-6 * fastest);
+                assert!(squared(difference(*after, *before)).sqrt() < 1e-6 * fastest);
                 inner += 1;
             }
         }

@@ -5,9 +5,10 @@
 //! forces between neighbours, so that action and reaction hold. Solids and walls that the liquid sticks to hold it along
 //! all axes, a mirror along its own, and take up the sum there: half a body beside a mirror moves as the whole.
 
+use shapes::frame::along;
+
 use crate::faces::Turn;
 use crate::near::{Near, Role};
-use crate::vector::plus;
 
 /// The bodies, and what holds them.
 #[derive(Debug, Clone, Default)]
@@ -68,7 +69,7 @@ impl Islands {
             }
             let mut sum = body.iter().fold([0.0; 3], |sum, b| {
                 let b = *b as usize;
-                plus(plus(sum, 1.0, slope[b]), -1.0, upon(b))
+                along(along(sum, 1.0, slope[b]), -1.0, upon(b))
             });
             for (sum, held) in sum.iter_mut().zip(held) {
                 if held {
@@ -77,7 +78,7 @@ impl Islands {
             }
             let part = -1.0 / body.len() as f64;
             for b in body {
-                slope[*b as usize] = plus(slope[*b as usize], part, sum);
+                slope[*b as usize] = along(slope[*b as usize], part, sum);
             }
         }
     }

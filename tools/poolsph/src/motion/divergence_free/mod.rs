@@ -49,13 +49,13 @@ mod weight;
 use kernels::moments::times;
 use particles::Matter;
 use rayon::prelude::*;
+use shapes::frame::{along, difference, squared};
 
 use super::step::{Solved, Step, Tolerance};
 use super::viscosity::Viscosity;
 use crate::forces::capillary;
 use crate::near::{Near, Role};
 use crate::sweep::GRAIN;
-use crate::vector::{minus, plus, squared};
 
 pub use self::closing::Closing;
 use self::cohesion::Cohesion;
@@ -253,7 +253,7 @@ impl DivergenceFree {
         self.change.clear();
         let changes = predicted.iter().zip(&near.velocity);
         self.change
-            .extend(changes.map(|(to, from)| minus(*to, *from)));
+            .extend(changes.map(|(to, from)| difference(*to, *from)));
         near.complete(&mut self.change, |u, _, turn| turn.vector(u));
         let moved = &self.moved;
         near.each_row(
@@ -321,8 +321,8 @@ impl DivergenceFree {
                 if near.role[a] == Role::Liquid {
                     let mut sum = rows[a].open.map(|x| 2.0 * (total[a] - upon[a]) * x);
                     for (b, slope) in row.slopes() {
-                        let x = minus(near.position[a], near.position[b]);
-                        sum = plus(sum, slope * (total[b] - total[a]), x);
+                        let x = difference(near.position[a], near.position[b]);
+                        sum = along(sum, slope * (total[b] - total[a]), x);
                     }
                     *out = times(rows[a].inverse, sum);
                 }
@@ -339,7 +339,7 @@ impl DivergenceFree {
             if rows[a].missing <= 0.0 {
                 return [0.0; 3];
             }
-            let surface = plus(near.position[a], 1.0, rows[a].outwards());
+            let surface = along(near.position[a], 1.0, rows[a].outwards());
             let pressure = near.outer.get(a).map_or(0.0, |p| p - pull.at(a));
             let pressure = pressure - weight.above(gas, islands, a, surface);
             rows[a].open.map(|x| -2.0 * pressure * x / moment)
@@ -360,7 +360,7 @@ impl DivergenceFree {
                 let p = p + weight.known(islands, a, position[a]);
                 if *role == Role::Liquid {
                     *virial += step.share * p;
-                    *u = plus(*u, -step.dt / step.metal.density, *slope);
+                    *u = along(*u, -step.dt / step.metal.density, *slope);
                 } else {
                     *virial = p;
                 }

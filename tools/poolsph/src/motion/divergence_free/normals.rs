@@ -7,11 +7,11 @@
 
 use kernels::CubicSpline;
 use particles::Matter;
+use shapes::frame::{along, difference, dot, squared};
 
 use crate::motion::lattice::Lattice;
 use crate::near::{Near, Role, Row};
 use crate::surface::tangents;
-use crate::vector::{dot, minus, plus, squared};
 
 /// Lack of neighbours, in parts of the lattice's, from which on a particle lies at the surface, and at which it does so
 /// wholly. A particle of a plane surface lacks 0.22.
@@ -56,7 +56,7 @@ impl Normals {
                 let mut side = [x, y, z].map(|x| own * x);
                 for (b, value) in row.index.iter().zip(row.value) {
                     let [x, y, z, _] = sides[*b as usize];
-                    side = plus(side, *value, [x, y, z]);
+                    side = along(side, *value, [x, y, z]);
                 }
                 let size = squared(side).sqrt();
                 if size > 0.0 {
@@ -121,7 +121,7 @@ fn levelled(near: &Near, a: usize, row: Row<'_>, sides: &[[f64; 4]], normal: [f6
     for (b, value) in row.index.iter().map(|b| *b as usize).zip(row.value) {
         let weight = value * sides[b][3];
         if weight > 0.0 {
-            let way = minus(near.position[b], near.position[a]);
+            let way = difference(near.position[b], near.position[a]);
             let [x, y, z] = [p, q, normal].map(|axis| dot(way, axis));
             let terms = [1.0, x, y, z, x * x, x * y, y * y, x * z, y * z];
             sums = std::array::from_fn(|i| sums[i] + weight * terms[i]);
@@ -143,7 +143,7 @@ fn levelled(near: &Near, a: usize, row: Row<'_>, sides: &[[f64; 4]], normal: [f6
         (yy * xz - xy * yz) / determinant,
         (xx * yz - xy * xz) / determinant,
     ];
-    let level = plus(plus(normal, -rise[0], p), -rise[1], q);
+    let level = along(along(normal, -rise[0], p), -rise[1], q);
     let size = squared(level).sqrt();
     level.map(|x| x / size)
 }

@@ -7,10 +7,10 @@
 //! lacks a third and more is open all around: drops of few particles, films and jets.
 
 use kernels::moments::within;
+use shapes::frame::{difference, dot, squared};
 
 use super::filled::Filled;
 use crate::near::{Near, Row};
-use crate::vector::{dot, minus, squared};
 
 /// Lack of neighbours, in parts of the lattice's, from which on a particle may lie at the surface, and at which it does so
 /// wholly.
@@ -42,7 +42,7 @@ pub(super) fn open(near: &Near, filled: Filled, a: usize, row: Row<'_>) -> f64 {
     }
     let (mut company, mut covered) = (0.0, 0.0_f64);
     for (b, slope) in row.slopes() {
-        let way = minus(near.position[b], near.position[a]);
+        let way = difference(near.position[b], near.position[a]);
         let far = squared(way).sqrt();
         let before = within(
             -dot(way, inwards) / (far * size).max(f64::MIN_POSITIVE),

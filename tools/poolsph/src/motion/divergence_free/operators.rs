@@ -22,11 +22,11 @@
 //! and the lattice's stands for it.
 
 use kernels::moments::{Moments, beyond, inverse, within};
+use shapes::frame::{along, difference, dot, squared};
 
 use super::filled::Filled;
 use super::openness::{lack, open};
 use crate::near::{Near, Row};
-use crate::vector::{dot, minus, plus, squared};
 
 /// Lack of weight, in parts of the lattice's, from which on a particle lies at the surface, and at which it does so wholly.
 /// A particle of a plane surface lacks a third.
@@ -100,7 +100,7 @@ impl Sums {
     pub(super) fn of(near: &Near, a: usize, row: Row<'_>, filled: Filled) -> Self {
         let (mut all, mut liquid, mut moments) = (0.0, 0.0, [0.0; 6]);
         for (b, slope) in row.slopes() {
-            let x = minus(near.position[a], near.position[b]);
+            let x = difference(near.position[a], near.position[b]);
             all -= slope;
             if near.role[b].flows() {
                 liquid -= slope;
@@ -153,16 +153,16 @@ impl Sums {
     pub(super) fn flow(&mut self, near: &Near, u: &[[f64; 3]], a: usize, row: Row<'_>) {
         let mut change = [[0.0; 3]; 3];
         for (b, slope) in row.slopes() {
-            let x = minus(near.position[a], near.position[b]);
+            let x = difference(near.position[a], near.position[b]);
             let step = if near.role[b].flows() {
-                minus(u[b], u[a])
+                difference(u[b], u[a])
             } else {
                 u[a].map(|u| -2.0 * u)
             };
             let [p, q, r] = x.map(|x| slope * x);
-            change[0] = plus(change[0], p, step);
-            change[1] = plus(change[1], q, step);
-            change[2] = plus(change[2], r, step);
+            change[0] = along(change[0], p, step);
+            change[1] = along(change[1], q, step);
+            change[2] = along(change[2], r, step);
         }
         self.slope = multiplied(self.shared, change);
         self.divergence = (0..3).map(|i| self.slope[i][i]).sum();
@@ -192,7 +192,7 @@ fn beneath(near: &Near, a: usize, row: Row<'_>, inwards: [f64; 3], filled: Fille
     }
     let (mut sum, mut inside, mut weight) = (0.0, 0.0, 0.0);
     for (b, slope) in row.slopes() {
-        let depth = dot(minus(near.position[b], near.position[a]), inwards) / (size * d);
+        let depth = dot(difference(near.position[b], near.position[a]), inwards) / (size * d);
         let part = -slope * within(depth, BENEATH);
         sum += part * depth;
         weight += part;

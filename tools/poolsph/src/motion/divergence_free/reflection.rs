@@ -11,10 +11,11 @@
 //! What p has in common with that of the last step pushes twice, so that an impact pushes once. What presses upon a surface is
 //! no part of what keeps the volume, and would act twice: there the velocity is projected.
 
+use shapes::frame::{difference, dot};
+
 use super::DivergenceFree;
 use crate::motion::step::Step;
 use crate::near::{Near, Role};
-use crate::vector::{dot, minus};
 
 /// r: part of the pressure that pushes once more without a surface.
 const REFLECTED: f64 = 0.9;
@@ -61,7 +62,7 @@ impl DivergenceFree {
             if near.role[a] == Role::Wet {
                 let (mut sum, mut weight) = (0.0, 0.0);
                 for (b, slope) in row.slopes().filter(|(b, _)| near.role[*b].flows()) {
-                    let way = minus(near.position[a], near.position[b]);
+                    let way = difference(near.position[a], near.position[b]);
                     let original = near.images().original(b);
                     sum -= slope * (pressure(original) + inertia * dot(change[b], way));
                     weight -= slope;

@@ -14,9 +14,10 @@
 //! spacings nearly so (D goes with the second derivative, its effect with the fourth). Momentum and angular momentum are kept, and
 //! energy can only fall, as D^T D is symmetric and not negative.
 
+use shapes::frame::{along, difference, dot, squared};
+
 use super::operators::Sums;
 use crate::near::{Near, Role};
-use crate::vector::{dot, minus, plus, squared};
 
 /// Part of D^T D u that is taken in the time of the shortest waves of the surface.
 const STRENGTH: f64 = 0.5;
@@ -47,7 +48,7 @@ fn liquid<'a>(
     let index = row.index.iter().map(|b| *b as usize).zip(row.value);
     index
         .filter(|(b, _)| near.role[*b] == Role::Liquid)
-        .map(move |(b, w)| (b, *w, minus(near.position[b], near.position[a])))
+        .map(move |(b, w)| (b, *w, difference(near.position[b], near.position[a])))
 }
 
 impl Ripples {
@@ -80,7 +81,7 @@ impl Ripples {
             *apart = [0.0; 3];
             if fit[a][0] > 0.0 {
                 *apart = liquid(near, a, row).fold(near.velocity[a], |sum, (b, w, x)| {
-                    plus(sum, -w * share(fit[a], x), near.velocity[b])
+                    along(sum, -w * share(fit[a], x), near.velocity[b])
                 });
             }
         });
@@ -90,12 +91,12 @@ impl Ripples {
             *change = [0.0; 3];
             if near.role[a] == Role::Liquid {
                 *change = liquid(near, a, row).fold(apart[a], |sum, (b, w, x)| {
-                    plus(sum, -w * share(fit[b], x.map(|x| -x)), apart[b])
+                    along(sum, -w * share(fit[b], x.map(|x| -x)), apart[b])
                 });
             }
         });
         for (u, change) in predicted.iter_mut().zip(&self.change) {
-            *u = plus(*u, -part, *change);
+            *u = along(*u, -part, *change);
         }
     }
 
@@ -116,9 +117,9 @@ fn weights(around: impl Iterator<Item = (usize, f64, [f64; 3])>) -> [f64; 4] {
     let (mut sum, mut first, mut second) = (0.0, [0.0; 3], [[0.0; 3]; 3]);
     for (_, w, x) in around {
         sum += w;
-        first = plus(first, w, x);
+        first = along(first, w, x);
         for (line, part) in second.iter_mut().zip(x) {
-            *line = plus(*line, w * part, x);
+            *line = along(*line, w * part, x);
         }
     }
     if sum <= 0.0 {
@@ -127,7 +128,7 @@ fn weights(around: impl Iterator<Item = (usize, f64, [f64; 3])>) -> [f64; 4] {
     // Moments about the mean place m: the fit there is the mean, and its slope is what M of the deviations tells.
     let mean = first.map(|x| x / sum);
     for (line, part) in second.iter_mut().zip(mean) {
-        *line = plus(*line, -sum * part, mean);
+        *line = along(*line, -sum * part, mean);
     }
     let size = (second[0][0] + second[1][1] + second[2][2]) / 3.0;
     let cofactor = |i: usize, j: usize| {

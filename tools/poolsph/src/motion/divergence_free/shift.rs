@@ -15,13 +15,13 @@
 //! all where tension acts: a drop without viscosity lives by what damps single particles. Heat goes along.
 
 use rayon::prelude::*;
+use shapes::frame::{along, dot, squared};
 
 use super::filled::Filled;
 use super::normals::Normals;
 use super::operators::Sums;
 use crate::near::{Near, Role};
 use crate::sweep::GRAIN;
-use crate::vector::{dot, plus, squared};
 
 /// D in d^2 for a way of one spacing in a step, and its bound (a half would overshoot).
 const STRENGTH: [f64; 2] = [8.0, 0.3];
@@ -73,7 +73,7 @@ impl Shift {
                     if squared(normal) <= 0.0 {
                         return [0.0; 3];
                     }
-                    way = plus(way, -dot(way, normal), normal);
+                    way = along(way, -dot(way, normal), normal);
                 }
                 let size = squared(way).sqrt();
                 let part = if size > FARTHEST * d {
@@ -105,8 +105,8 @@ impl Shift {
             .zip(&self.change)
             .with_min_len(GRAIN)
             .for_each(|(((x, u), way), change)| {
-                *x = plus(*x, 1.0, *way);
-                *u = plus(*u, 1.0, *change);
+                *x = along(*x, 1.0, *way);
+                *u = along(*u, 1.0, *change);
             });
     }
 

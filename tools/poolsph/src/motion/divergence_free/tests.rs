@@ -1,6 +1,7 @@
 //! Exact cases of the operators and of a step.
 
 use particles::POSITION;
+use shapes::frame::dot;
 
 use super::*;
 use crate::march::{Group, March};
@@ -9,7 +10,6 @@ use crate::motion::tests::{METAL, block, march, steps, tank};
 use crate::motion::{Law, Method, Motion, Parameters};
 use crate::stage::Stage;
 use crate::state::{PHASE, State, VELOCITY, phase};
-use crate::vector::dot;
 
 /// A shaken block: places are moved by up to a tenth of a spacing.
 fn shaken(cells: [i32; 3], phase: impl Fn([i32; 3]) -> u8) -> State {
@@ -132,7 +132,7 @@ fn a_body_that_touches_nothing_keeps_its_momentum() {
             .metal
             .column(&VELOCITY)
             .iter()
-            .fold([0.0; 3], |sum, u| plus(sum, 1.0, *u))
+            .fold([0.0; 3], |sum, u| along(sum, 1.0, *u))
     };
     let before = momentum(&state);
     let size: f64 = state
@@ -145,7 +145,7 @@ fn a_body_that_touches_nothing_keeps_its_momentum() {
     let parameters: Parameters = serde_json::from_str(text).unwrap();
     let mut motion = Motion::new(parameters, crate::motion::Law::Uniform(0.004), METAL);
     motion.advance(&mut state, 1e-4).unwrap();
-    let change = minus(momentum(&state), before);
+    let change = difference(momentum(&state), before);
     assert!(
         squared(change).sqrt() < 1e-12 * size,
         "{change:?} of {size}"
@@ -197,7 +197,7 @@ fn a_pressure_upon_the_whole_surface_moves_nothing() {
     let fastest = still.iter().map(|u| squared(*u)).fold(0.0, f64::max).sqrt();
     assert!(fastest > 1e-3, "{fastest}");
     for a in 0..without.len() {
-        let change = squared(minus(fast[a], still[a])).sqrt();
+        let change = squared(difference(fast[a], still[a])).sqrt();
         assert!(change < 1e-6 * fastest, "{change} of {fastest}");
         if without.metal.column(&PHASE)[a] == phase::LIQUID {
             let more = more[a] - less[a];
@@ -233,10 +233,10 @@ fn a_weight_that_walls_bear_moves_nothing_in_a_closed_box() {
     let [here, there] = [&without, &with].map(|state| state.metal.column(&POSITION));
     let phases = without.metal.column(&PHASE);
     for a in (0..without.len()).filter(|a| phases[*a] == phase::LIQUID) {
-        let change = squared(minus(fast[a], still[a])).sqrt();
+        let change = squared(difference(fast[a], still[a])).sqrt();
         assert!(change < 1e-8, "{change} m/s");
-        let [_, y, z] = minus(there[a], there[0]);
-        let [_, v, w] = minus(here[a], here[0]);
+        let [_, y, z] = difference(there[a], there[0]);
+        let [_, v, w] = difference(here[a], here[0]);
         assert!((y - v).abs() + (z - w).abs() < 1e-12);
     }
     let deepest = with
@@ -306,8 +306,8 @@ fn a_plane_surface_is_one_and_its_particles_are_shifted_along_it() {
     assert!(solver.rows[a].missing > 0.2 * solver.filled.weight);
     let (before, velocity) = (near.position[a], near.velocity[a]);
     solver.even(near, 1e-4);
-    assert!(squared(minus(near.velocity[a], velocity)) <= 0.0);
-    let [x, y, z] = minus(near.position[a], before).map(|x| x / METAL.spacing);
+    assert!(squared(difference(near.velocity[a], velocity)) <= 0.0);
+    let [x, y, z] = difference(near.position[a], before).map(|x| x / METAL.spacing);
     assert!(x < -1e-4, "{x}");
     assert!(y.abs() < 1e-9 && z.abs() < 1e-3 * x.abs(), "{y} {z}");
 }

@@ -13,12 +13,12 @@
 
 use particles::Matter;
 use rayon::prelude::*;
+use shapes::frame::{along, difference, dot, squared};
 
 use super::normals::Normals;
 use crate::motion::viscosity::Viscosity;
 use crate::near::{Near, Row};
 use crate::sweep::GRAIN;
-use crate::vector::{dot, minus, plus, squared};
 
 /// Least determinant of the moments, over the cube of their mean, that tells a gradient.
 const FLAT: f64 = 1e-3;
@@ -63,7 +63,7 @@ impl Traction {
     pub(super) fn apply(&self, dt: f64, predicted: &mut [[f64; 3]]) {
         let rows = predicted.par_iter_mut().zip(&self.pull);
         rows.with_min_len(GRAIN)
-            .for_each(|(u, pull)| *u = plus(*u, dt / self.density, *pull));
+            .for_each(|(u, pull)| *u = along(*u, dt / self.density, *pull));
     }
 
     /// Bytes held.
@@ -77,11 +77,11 @@ impl Traction {
 fn turned(near: &Near, a: usize, row: Row<'_>, v: [f64; 3]) -> [f64; 3] {
     let (mut sum, mut moment) = ([0.0; 3], [[0.0; 3]; 3]);
     for (b, slope) in row.slopes().filter(|(b, _)| near.role[*b].flows()) {
-        let x = minus(near.position[b], near.position[a]);
-        let rise = dot(minus(near.velocity[b], near.velocity[a]), v);
-        sum = plus(sum, -slope * rise, x);
+        let x = difference(near.position[b], near.position[a]);
+        let rise = dot(difference(near.velocity[b], near.velocity[a]), v);
+        sum = along(sum, -slope * rise, x);
         for (line, part) in moment.iter_mut().zip(x) {
-            *line = plus(*line, -slope * part, x);
+            *line = along(*line, -slope * part, x);
         }
     }
     let minor = |i: usize, j: usize| {

@@ -12,13 +12,13 @@
 //! which the liquid is periodic.
 
 use rayon::prelude::*;
+use shapes::frame::{along, difference, dot, squared};
 
 use super::islands::Islands;
 use super::operators::Sums;
 use crate::motion::step::Step;
 use crate::near::{Near, Role};
 use crate::sweep::GRAIN;
-use crate::vector::{dot, minus, plus, squared};
 
 /// The known part of the pressure, `[m]` in the order of [`Near`].
 #[derive(Debug, Clone, Default)]
@@ -52,8 +52,8 @@ impl Weight {
         let mut count = 0.0;
         for (a, u) in predicted.iter_mut().enumerate() {
             if near.role[a] == Role::Liquid && !islands.free(a) {
-                *u = plus(*u, -step.dt, islands.borne(a, borne));
-                self.middle = plus(self.middle, 1.0, near.position[a]);
+                *u = along(*u, -step.dt, islands.borne(a, borne));
+                self.middle = along(self.middle, 1.0, near.position[a]);
                 count += 1.0;
             }
         }
@@ -71,7 +71,7 @@ impl Weight {
             if row.missing <= 0.0 {
                 return 0.0;
             }
-            let surface = plus(near.position[a], 1.0, row.outwards());
+            let surface = along(near.position[a], 1.0, row.outwards());
             near.outer.get(a).copied().unwrap_or(0.0) - self.known(islands, a, surface)
         };
         let points = rows.par_iter().enumerate().with_min_len(GRAIN);
@@ -110,7 +110,7 @@ impl Weight {
         if islands.free(a) {
             level[1]
         } else {
-            level[0] + dot(islands.borne(a, self.slope), minus(x, self.middle))
+            level[0] + dot(islands.borne(a, self.slope), difference(x, self.middle))
         }
     }
 

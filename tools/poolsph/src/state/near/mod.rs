@@ -16,13 +16,13 @@ use kernels::CubicSpline;
 use neighbours::{Grid, Halo, Lists};
 use particles::Matter;
 use rayon::prelude::*;
+use shapes::frame::squared;
 
 pub use self::pairs::{PairChunk, Row};
 use self::pairs::{RowSums, rows};
 
 use crate::faces::{Faces, Images, Turn};
 use crate::state::{State, VELOCITY};
-use crate::vector::squared;
 
 /// Solid particles are gathered this far beyond the support, in supports: the way that a liquid
 /// particle may go within a step.

@@ -4,8 +4,7 @@ use kernels::CubicSpline;
 use neighbours::{Chunk, Lists, ROWS};
 use particles::sweep::wide;
 use rayon::prelude::*;
-
-use crate::vector::{minus, squared};
+use shapes::frame::{difference, squared};
 
 /// Kernel values of the pairs of a chunk of rows, at the offsets of the neighbour lists; buffers may
 /// be longer.
@@ -123,7 +122,7 @@ impl Rows<'_> {
             let values = &mut self.pairs.value[chunk.range(k)];
             for (&b, value) in chunk.row(k).iter().zip(values) {
                 let [u, v, w, _] = marks[b as usize];
-                *value = squared(minus([x, y, z], [u, v, w]));
+                *value = squared(difference([x, y, z], [u, v, w]));
             }
         }
     }

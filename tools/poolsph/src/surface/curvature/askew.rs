@@ -9,10 +9,10 @@
 
 use neighbours::Grid;
 use rayon::prelude::*;
+use shapes::frame::{along, difference, squared};
 
 use crate::faces::TiltedFace;
 use crate::near::Near;
-use crate::vector::{minus, plus, squared};
 
 /// Part of grad C that lies along a face, from which on it tells a direction there.
 const TELLS: f64 = 0.05;
@@ -47,14 +47,14 @@ impl Askew {
             let members = (0..near.len()).into_par_iter();
             let seen = members.filter(|a| face.distance(near.position[*a]) < self.support);
             let changed = seen.filter_map(|a| {
-                let along = self.along(face, gradient[a])?;
-                let (number, gradient) = self.sums(near, face, a, along);
+                let tangent = self.tangent(face, gradient[a])?;
+                let (number, gradient) = self.sums(near, face, a, tangent);
                 Some((a, number, gradient))
             });
             self.changed = changed.collect();
             for (a, more, slope) in &self.changed {
                 number[*a] += more;
-                gradient[*a] = plus(gradient[*a], 1.0, *slope);
+                gradient[*a] = along(gradient[*a], 1.0, *slope);
             }
         }
     }
@@ -75,22 +75,22 @@ impl Askew {
     }
 
     /// t from grad W; none where that has no direction along the face.
-    fn along(&self, face: &TiltedFace, gradient: [f64; 3]) -> Option<[f64; 3]> {
-        let mut along = gradient.map(|g| -g);
-        along[face.axis] = 0.0;
-        let (size, all) = (squared(along).sqrt(), squared(gradient).sqrt());
-        (size > TELLS * all).then(|| along.map(|x| x / size))
+    fn tangent(&self, face: &TiltedFace, gradient: [f64; 3]) -> Option<[f64; 3]> {
+        let mut tangent = gradient.map(|g| -g);
+        tangent[face.axis] = 0.0;
+        let (size, all) = (squared(tangent).sqrt(), squared(gradient).sqrt());
+        (size > TELLS * all).then(|| tangent.map(|x| x / size))
     }
 
     /// What particle `a` has of sheared images, less what it has of mirror images.
-    fn sums(&self, near: &Near, face: &TiltedFace, a: usize, along: [f64; 3]) -> (f64, [f64; 3]) {
+    fn sums(&self, near: &Near, face: &TiltedFace, a: usize, tangent: [f64; 3]) -> (f64, [f64; 3]) {
         let (images, kernel, place) = (near.images(), &near.kernel, near.position[a]);
         let (mut number, mut gradient) = (0.0, [0.0; 3]);
         let mut add = |sign: f64, other: [f64; 3]| {
-            let way = minus(place, other);
+            let way = difference(place, other);
             let sample = kernel.sample(squared(way).sqrt());
             number += sign * sample.value;
-            gradient = plus(gradient, sign * sample.slope, way);
+            gradient = along(gradient, sign * sample.slope, way);
         };
         for &b in near.lists.row(a) {
             let b = b as usize;
@@ -100,12 +100,12 @@ impl Askew {
         }
         // All whose image may be within the support: half as far from the face as the farthest of them, give or take.
         let half = 0.5 * (self.support - face.distance(place));
-        let mut middle = plus(place, -2.0 * face.cot * half, along);
+        let mut middle = along(place, -2.0 * face.cot * half, tangent);
         middle[face.axis] = face.plane + half.copysign(place[face.axis] - face.plane);
         let reach = half.hypot(self.support + 2.0 * half * face.cot.abs());
         self.grid.runs(middle, reach, |run| {
             for x in &self.grid.sorted()[run] {
-                let mut other = plus(*x, 2.0 * face.cot * face.distance(*x), along);
+                let mut other = along(*x, 2.0 * face.cot * face.distance(*x), tangent);
                 other[face.axis] = 2.0 * face.plane - x[face.axis];
                 add(1.0, other);
             }

@@ -20,13 +20,13 @@ use kernels::CubicSpline;
 use neighbours::{Grid, Lists, ROWS};
 use particles::Matter;
 use rayon::prelude::*;
+use shapes::frame::{along, difference, squared};
 
 use self::askew::Askew;
 pub use self::quadric::{Sample, Shape, shape};
 use super::depth::Depth;
 use crate::faces::Images;
 use crate::near::{Near, Role};
-use crate::vector::{minus, plus, squared};
 
 /// Distance up to which places are fitted, in smoothing lengths.
 const REACH: f64 = 3.0;
@@ -148,7 +148,7 @@ impl Curvature {
         near.each_row(&mut self.turned, |a, row, out| {
             let start = gradient[a].map(|x| volume * own * x);
             let values = row.values();
-            *out = values.fold(start, |sum, (b, w)| plus(sum, volume * w, gradient[b]));
+            *out = values.fold(start, |sum, (b, w)| along(sum, volume * w, gradient[b]));
         });
     }
 
@@ -161,7 +161,7 @@ impl Curvature {
             for b in row.index.iter().map(|b| *b as usize) {
                 let dry = near.dry[near.images().original(b)];
                 if dry > 0.0 {
-                    let way = minus(near.position[a], near.position[b]);
+                    let way = difference(near.position[a], near.position[b]);
                     let sample = kernel.sample(squared(way).sqrt());
                     let [x, y, z] = way.map(|x| dry * sample.slope * x);
                     let more = [dry * sample.value, x, y, z];
@@ -172,7 +172,7 @@ impl Curvature {
         let rows = self.number.iter_mut().zip(&mut self.gradient);
         for ((number, gradient), [value, x, y, z]) in rows.zip(&self.dry) {
             *number -= value;
-            *gradient = minus(*gradient, [*x, *y, *z]);
+            *gradient = difference(*gradient, [*x, *y, *z]);
         }
     }
 
@@ -202,7 +202,7 @@ impl Curvature {
                 continue;
             }
             let normal = turned.map(|x| -x / size);
-            let place = plus(near.position[a], depth, normal);
+            let place = along(near.position[a], depth, normal);
             self.members.push(a as u32);
             self.places.push(place);
             self.samples.push(Sample {

@@ -11,8 +11,9 @@
 //! metal bulges). Planes, spheres and, by their normals, cylinders are met exactly at any distance: along a sphere normals turn as
 //! chords grow, and -2 z/kappa is the square of the chord, where a paraboloid of that curvature errs by (l/2R)^2.
 
+use shapes::frame::{difference, dot, squared};
+
 use crate::surface::tangents;
-use crate::vector::{dot, minus, squared};
 
 /// A place on the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -32,7 +33,7 @@ impl Sample {
     pub fn weight(&self, other: &Self, reach: f64) -> f64 {
         let [from, to] = SAME;
         let same = ((dot(self.normal, other.normal) - from) / (to - from)).clamp(0.0, 1.0);
-        let chord = squared(minus(other.place, self.place)) / (reach * reach);
+        let chord = squared(difference(other.place, self.place)) / (reach * reach);
         other.trust * same * (1.0 - chord).max(0.0).powi(2)
     }
 }
@@ -114,7 +115,7 @@ pub fn shape<'a>(
     let mut equations = Equations::default();
     let mut places = 0;
     for sample in std::iter::once(middle).chain(around) {
-        let way = minus(sample.place, middle.place).map(|x| x / reach);
+        let way = difference(sample.place, middle.place).map(|x| x / reach);
         let chord = squared(way);
         let weight = middle.weight(sample, reach);
         if weight <= 0.0 {
