@@ -4,6 +4,7 @@
 
 mod arguments;
 mod house;
+mod owners;
 mod skeleton;
 mod texts;
 
