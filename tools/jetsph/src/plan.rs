@@ -9,6 +9,9 @@ use crate::memory;
 use crate::scene::{Method, Scene};
 use crate::simulate::endless;
 
+/// Spacings in the length over which a solid breaks from which on a crack takes the same energy within 10 % (`fracture-energy`).
+const RESOLVED: f64 = 4.0;
+
 /// What is done before a run, and told by `check`.
 ///
 /// # Errors
@@ -59,14 +62,30 @@ pub(crate) fn plan(scene: &Scene, run: &Assembled) -> Result<Plan, Failure> {
     for note in notes {
         plan = plan.note(note);
     }
+    Ok(noted(plan, scene))
+}
+
+/// What is told of a scene beside its numbers.
+fn noted(mut plan: Plan, scene: &Scene) -> Plan {
+    for solid in &scene.solids {
+        let cells = solid
+            .fracture_length_m
+            .map_or(f64::INFINITY, |length| length / solid.spacing_m);
+        if cells < RESOLVED {
+            plan = plan.note(format!(
+                "'fracture_length_m' of \"{}\" is {cells:.2} spacings: strength is the same on any spacing, the energy of a crack within 10 % from {RESOLVED} on",
+                solid.name
+            ));
+        }
+    }
     let soundless = scene.water.as_ref().map(|water| water.method) == Some(Method::DivergenceFree);
     if soundless && scene.gravity_m_s2.is_some() {
         plan = plan.note(
             "water without sound is for jets: a tank does not rest under gravity, take sound there",
         );
     }
-    if state.dimensions == 2 {
+    if scene.dimensions == 2 {
         plan = plan.note("a plane scene: masses, forces and energies are per metre of depth");
     }
-    Ok(plan)
+    plan
 }

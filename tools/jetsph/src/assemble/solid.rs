@@ -168,7 +168,11 @@ fn staged<const L: usize, const T: usize>(
     let stage = match solid.fracture {
         Some(criterion) => {
             let middles = lattice.middles(if T == 5 { 2 } else { 3 });
-            stage.breaking(criterion, set, &middles, axes(lattice))
+            let stage = stage.breaking(criterion, set, &middles, axes(lattice));
+            match solid.fracture_length_m {
+                Some(length) => stage.breaking_over(length, &middles),
+                None => stage,
+            }
         }
         None => stage,
     };

@@ -12,6 +12,8 @@ use crate::matter::solid::law::Plane;
 const EVENTS_MOST: f64 = 1e7;
 /// Most particles side by side in a nozzle.
 const LANES_MOST: f64 = 1e6;
+/// Most spacings in the length over which a solid breaks, in the plane and in space: 4096 cells.
+const LENGTHS_MOST: [f64; 2] = [64.0, 16.0];
 /// Most nozzles of a scene: a particle knows its own by a byte.
 const NOZZLES_MOST: usize = 255;
 
@@ -220,6 +222,37 @@ impl Solid {
         }
     }
 
+    /// Faults of the length over which it breaks.
+    fn length_faults(&self, at: &str, dimensions: usize, faults: &mut Vec<Fault>) {
+        let Some(length) = self.fracture_length_m else {
+            return;
+        };
+        let most = LENGTHS_MOST[usize::from(dimensions == 3)];
+        let (at, spacing) = (format!("{at}/fracture_length_m"), format!("{at}/spacing_m"));
+        match self.fracture {
+            None => faults.push(Fault::at(&at, "nothing breaks: it wants 'fracture', too")),
+            Some(Criterion::Energy(_)) => {
+                let what = "belongs to 'equivalent_strain' and 'principal_stress_pa': an energy has no length";
+                faults.push(Fault::at(&at, what));
+            }
+            Some(_) if length < self.spacing_m => {
+                let what = format!(
+                    "{length} m is less than the spacing of {} m: no smaller part has a strain of its own",
+                    self.spacing_m
+                );
+                faults.push(Fault::at(&at, what).or_at(&spacing));
+            }
+            Some(_) if length > most * self.spacing_m => {
+                let what = format!(
+                    "{length} m is {:.3e} spacings, at most {most}: each cell would look at too many others",
+                    length / self.spacing_m
+                );
+                faults.push(Fault::at(&at, what).or_at(&spacing));
+            }
+            Some(_) => {}
+        }
+    }
+
     /// Faults of what only the form by the deformation since rest can.
     fn form_faults(&self, at: &str, plane: Option<Plane>, faults: &mut Vec<Fault>) {
         if self.updated_form.is_none() {
@@ -253,6 +286,7 @@ impl Solid {
             }
         }
         self.flow_faults(at, plane, faults);
+        self.length_faults(at, dimensions, faults);
         self.form_faults(at, plane, faults);
         let mut within = |shape: Option<&Shape>, at: &str| {
             if let Some(shape) = shape {

@@ -4,6 +4,7 @@
 
 mod beside;
 mod judged;
+mod lengths;
 mod soundless;
 
 use artefact::{Checkpoint, Header, Version};

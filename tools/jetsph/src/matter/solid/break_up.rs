@@ -7,8 +7,9 @@ use super::breaking::Breaking;
 use super::cell::gradient;
 use super::elastic::Elastic;
 use super::fracture::{BROKEN, Criterion};
+use super::nonlocal::Boxes;
 use super::stiffness::stiffness;
-use super::tensor::determinant;
+use super::tensor::{UNIT, determinant, transposed_times};
 use super::trial::Trial;
 use crate::matter::meeting::skin::DEFORMATION;
 use crate::stage::Figure;
@@ -66,13 +67,10 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let Some(mut breaking) = self.breaking.take() else {
             return Vec::new();
         };
-        let law = self.body.cell.law;
-        let is_due = |a: &usize| {
-            let deformation = law.completed(gradient(&self.derivatives(*a)));
-            !breaking.broken[*a] && breaking.criterion.breaks(&law, &deformation)
+        let mut due = match &breaking.boxes {
+            Some(boxes) => self.due_over(&breaking, boxes),
+            None => self.due_alone(&breaking),
         };
-        let all = (0..breaking.broken.len()).into_par_iter().with_min_len(32);
-        let mut due: Vec<usize> = all.filter(is_due).collect();
         if let Criterion::Energy(limit) = breaking.criterion {
             let (acceleration, mass) = (set.column(&ACCELERATION), set.column(&MASS));
             let pushed = |a: usize| acceleration[a].map(|x| mass[a] * x);
@@ -82,6 +80,32 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         }
         self.breaking = Some(breaking);
         due
+    }
+
+    /// Those that break by what their own cell bears.
+    fn due_alone(&self, breaking: &Breaking<T>) -> Vec<usize> {
+        let law = self.body.cell.law;
+        let is_due = |a: &usize| {
+            let deformation = law.completed(gradient(&self.derivatives(*a)));
+            !breaking.broken[*a] && breaking.criterion.breaks(&law, &deformation)
+        };
+        let all = (0..breaking.broken.len()).into_par_iter().with_min_len(32);
+        all.filter(is_due).collect()
+    }
+
+    /// Those that break by what the boxes around them bear.
+    fn due_over(&self, breaking: &Breaking<T>, boxes: &Boxes) -> Vec<usize> {
+        let law = self.body.cell.law;
+        let mut squares = vec![UNIT; breaking.broken.len()];
+        sweep::fill(&mut squares, |a| {
+            if breaking.broken[a] {
+                return UNIT;
+            }
+            let deformation = law.completed(gradient(&self.derivatives(a)));
+            transposed_times(&deformation, &deformation)
+        });
+        let share = |a: usize| self.body.share(a);
+        boxes.due(&breaking.criterion, &law, &breaking.broken, &squares, share)
     }
 
     /// Breaks some particles and what they held, and books the energy that goes with their links.

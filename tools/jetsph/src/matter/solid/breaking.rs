@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use super::cracks::{AROUND, Cracks};
 use super::fracture::Criterion;
+use super::nonlocal::Boxes;
 use super::tensor::Matrix;
 use super::trial::Trial;
 
@@ -11,6 +12,8 @@ use super::trial::Trial;
 #[derive(Debug, Clone)]
 pub struct Breaking<const T: usize> {
     pub(super) criterion: Criterion,
+    /// Over what it takes the mean; a cell alone if none.
+    pub(super) boxes: Option<Boxes>,
     /// Size of a cell \[m\].
     pub(super) size: f64,
     /// F of a cell at rest: the axes of the lattice.
@@ -45,6 +48,7 @@ impl<const T: usize> Breaking<T> {
         let most = stiffness.iter().fold(0.0, |most: f64, x| most.max(*x));
         Self {
             criterion,
+            boxes: None,
             size,
             axes,
             cracks,
@@ -72,6 +76,7 @@ impl<const T: usize> Breaking<T> {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.cracks.bytes() + 9 * self.broken.len()
+        let boxes = self.boxes.as_ref().map_or(0, Boxes::bytes);
+        self.cracks.bytes() + boxes + 9 * self.broken.len()
     }
 }

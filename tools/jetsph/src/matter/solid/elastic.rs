@@ -5,12 +5,13 @@ use steps::Limit;
 
 use super::body::Body;
 use super::breaking::Breaking;
-use super::cell::{Derivatives, gradient};
+use super::cell::{Derivatives, dimensions, gradient};
 use super::cracks::Cracks;
 use super::flowing::{PLASTIC_STRAIN, Plastic};
 use super::fracture::{BROKEN, Criterion};
 use super::law::equivalent_strain;
 use super::links::Links;
+use super::nonlocal::Boxes;
 use super::plastic::History;
 use super::stiffness::stiffness;
 use super::tensor::{Matrix, UNIT};
@@ -105,6 +106,17 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let stiffness = (0..n).map(|a| stiffness(self.links.row(a).weight, moment));
         let stiffness = stiffness.collect();
         self.breaking = Some(Breaking::new(criterion, cracks, size, stiffness, axes));
+        self
+    }
+
+    /// With fracture by the mean over a length \[m\] around cells with these middles \[m\].
+    #[must_use]
+    pub fn breaking_over(mut self, length: f64, middles: &[[f64; 3]]) -> Self {
+        let (size, dimensions) = (self.body.size, dimensions(T));
+        let boxes = Boxes::new(middles, size, length, dimensions);
+        if let Some(breaking) = &mut self.breaking {
+            breaking.boxes = Some(boxes);
+        }
         self
     }
 

@@ -6,16 +6,18 @@
 //! energy     G  >= limit,    G the energy that would go with the particle, by the area of the crack: see [`super::release`]
 //! ```
 //!
-//! The formula of the equivalent strain is not in the source; it is von Mises' of the logarithmic principal strains. The
-//! third makes the energy of a crack the same on any spacing. A broken particle keeps its mass and its motion and loses its links; those that they crossed are lost, too, so
+//! The formula of the equivalent strain is not in the source; it is von Mises' of the logarithmic principal strains. At the
+//! tip of a crack strain and stress of a cell rise as cells shrink, so what a crack costs falls with the spacing; by their
+//! mean over a length (`nonlocal`) it does not. The third makes the energy of a crack the same on any spacing, and begins no
+//! crack on a smooth face. A broken particle keeps its mass and its motion and loses its links; those that they crossed are lost, too, so
 //! that both sides of a crack are free surfaces. From then on it is a contact, which bears compression alone.
 
 use particles::Column;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::law::{Law, equivalent_strain};
-use super::tensor::{Matrix, eigenvalues, inner, transposed_times};
+use super::law::{Law, strain_of};
+use super::tensor::{Matrix, determinant, eigenvalues, inner, transposed_times};
 
 /// Whether a particle is broken.
 pub const BROKEN: Column<u8> = Column::new("broken", "1", 0).saved().shown();
@@ -40,23 +42,34 @@ impl Criterion {
     /// its neighbours, too, and not here.
     #[must_use]
     pub fn breaks(&self, law: &Law, deformation: &Matrix) -> bool {
-        let volume = super::tensor::determinant(deformation);
+        let volume = determinant(deformation);
         // What is no number is no volume.
         let is_one = volume > 0.0;
         if !is_one {
             return true;
         }
+        let square = transposed_times(deformation, deformation);
+        self.may_break(law, &square) && self.load(law, &square) >= 1.0
+    }
+
+    /// Whether [`Self::load`] may be 1 or more of any C that is no further from 1 than this one: no search for principal strains,
+    /// and a mean is no further than the furthest.
+    #[must_use]
+    pub(super) fn may_break(&self, law: &Law, square: &Matrix) -> bool {
         match *self {
-            Self::Strain(limit) => {
-                let may = (2.0_f64 / 3.0).sqrt() * strain_most(deformation) >= limit;
-                may && equivalent_strain(deformation) >= limit
-            }
-            Self::Stress(limit) => {
-                let stress = law.cauchy(deformation);
-                let may = BOUND * inner(&stress, &stress).sqrt() >= limit;
-                may && eigenvalues(&stress)[0] >= limit
-            }
+            Self::Strain(limit) => (2.0_f64 / 3.0).sqrt() * strain_most(square) >= limit,
+            Self::Stress(limit) => stress_most(law, square) >= limit,
             Self::Energy(_) => false,
+        }
+    }
+
+    /// What a cell bears of what breaks it, by C = F^T F of its completed deformation; nothing by the energy.
+    #[must_use]
+    pub(super) fn load(&self, law: &Law, square: &Matrix) -> f64 {
+        match *self {
+            Self::Strain(limit) => strain_of(square) / limit,
+            Self::Stress(limit) => law.greatest_stress(square) / limit,
+            Self::Energy(_) => 0.0,
         }
     }
 }
@@ -66,12 +79,29 @@ const BOUND: f64 = 1.0 + 1e-9;
 
 /// What the length of the logarithmic principal strains e_i is at most, without a search for them: with C = F^T F and D the
 /// length of C - 1, `|ln c_i| <= -ln(1 - D) <= D/(1 - D)` and `e_i = ln(c_i)/2`.
-fn strain_most(deformation: &Matrix) -> f64 {
-    let mut off = transposed_times(deformation, deformation);
-    (0..3).for_each(|k| off[k][k] -= 1.0);
-    let length = inner(&off, &off).sqrt();
+fn strain_most(square: &Matrix) -> f64 {
+    let length = off_rest(square);
     if length < 1.0 {
         BOUND * 0.5 * length / (1.0 - length)
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// D, the length of C - 1.
+fn off_rest(square: &Matrix) -> f64 {
+    let mut off = *square;
+    (0..3).for_each(|k| off[k][k] -= 1.0);
+    inner(&off, &off).sqrt()
+}
+
+/// What the greatest principal stress is at most \[Pa\]: all |c_i - 1| are at most D, and `lambda ln J` at
+/// most `3/2 lambda ln(1 + D)`, or `3/2 lambda ln(1 - D)` where lambda is negative.
+fn stress_most(law: &Law, square: &Matrix) -> f64 {
+    let length = off_rest(square);
+    if length < 1.0 {
+        let volume = 1.5 * law.lame * (length * law.lame.signum()).ln_1p();
+        BOUND * (law.shear * length + volume) / (1.0 - length).powf(1.5)
     } else {
         f64::INFINITY
     }
@@ -80,7 +110,7 @@ fn strain_most(deformation: &Matrix) -> f64 {
 /// What [`stretched`] is at most \[J/m3\], without a search for principal strains.
 #[must_use]
 pub fn stretched_most(law: &Law, deformation: &Matrix) -> f64 {
-    let strain = strain_most(deformation);
+    let strain = strain_most(&transposed_times(deformation, deformation));
     // The sum of three is at most sqrt(3) of their length.
     (law.shear + 1.5 * law.lame.max(0.0)) * strain * strain
 }
@@ -119,7 +149,7 @@ pub fn crossed(a: [f64; 3], b: [f64; 3], broken: impl Iterator<Item = [f64; 3]>)
 
 #[cfg(test)]
 mod tests {
-    use super::super::law::{Elastic, Young};
+    use super::super::law::{Elastic, Young, equivalent_strain};
     use super::super::tensor::UNIT;
     use super::*;
 
@@ -162,10 +192,14 @@ mod tests {
             let entries = f.iter_mut().flatten().enumerate();
             entries.for_each(|(m, x)| *x += 0.3 * size * f64::from(9 * k + m as i32).sin());
             let length = 1.5_f64.sqrt() * equivalent_strain(&f);
-            assert!(length <= strain_most(&f) && stretched(&law, &f) <= stretched_most(&law, &f));
+            let square = transposed_times(&f, &f);
+            assert!(law.greatest_stress(&square) <= stress_most(&law, &square));
+            assert!(
+                length <= strain_most(&square) && stretched(&law, &f) <= stretched_most(&law, &f)
+            );
             // Volume is no part of the equivalent strain.
             assert!(
-                size > 0.01 || strain_most(&f) < 5.0 * length,
+                size > 0.01 || strain_most(&square) < 5.0 * length,
                 "{length} {k}"
             );
         }

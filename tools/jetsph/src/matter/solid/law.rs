@@ -10,7 +10,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::tensor::{Matrix, cofactor, determinant, inner, times_transposed, transposed_times};
+use super::tensor::{
+    Matrix, cofactor, determinant, eigenvalues, inner, times_transposed, transposed_times,
+};
 
 /// What happens across the plane of a scene of two dimensions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -164,12 +166,26 @@ impl Law {
         let scaled = times_transposed(&self.answer(deformation).stress, deformation);
         scaled.map(|row| row.map(|x| x / volume))
     }
+
+    /// Greatest principal Cauchy stress \[Pa\] by C = F^T F of a completed deformation: (mu (c - 1) + lambda ln J)/J.
+    #[must_use]
+    pub(super) fn greatest_stress(&self, square: &Matrix) -> f64 {
+        let volume = determinant(square).sqrt();
+        let [most, ..] = eigenvalues(square);
+        (self.shear * (most - 1.0) + self.lame * volume.ln()) / volume
+    }
 }
 
 /// Equivalent strain of the principal logarithmic strains: sqrt(2/3) times the length of their deviator.
 #[must_use]
 pub fn equivalent_strain(deformation: &Matrix) -> f64 {
-    let stretches = super::tensor::eigenvalues(&transposed_times(deformation, deformation));
+    strain_of(&transposed_times(deformation, deformation))
+}
+
+/// The same by C = F^T F.
+#[must_use]
+pub(super) fn strain_of(square: &Matrix) -> f64 {
+    let stretches = eigenvalues(square);
     let strain = stretches.map(|square| 0.5 * square.max(f64::MIN_POSITIVE).ln());
     let mean = (strain[0] + strain[1] + strain[2]) / 3.0;
     let squares: f64 = strain.iter().map(|e| (e - mean) * (e - mean)).sum();

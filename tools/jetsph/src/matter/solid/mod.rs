@@ -6,7 +6,7 @@
 //! strain varies across them ([`cell`]), and forces are the slopes of that energy, so that they keep momentum, angular
 //! momentum and energy, and a solid at rest stays so. Faces are the true ones: rows of particles stand half a cell inside
 //! them, free faces need nothing, held and loaded ones are [`bound`] where they are. Where a scene has it break,
-//! [`fracture`] says when, [`cracks`] what is left, [`breaking`] does it.
+//! [`fracture`] says when, over what length `nonlocal`, [`cracks`] what is left, [`breaking`] does it.
 //! [`updated`] is the form of Shinohara et al. (2004), for comparison.
 
 pub mod body;
@@ -22,6 +22,7 @@ mod forces;
 pub mod fracture;
 pub mod law;
 pub mod links;
+mod nonlocal;
 mod outside;
 pub mod plastic;
 pub mod quadratic;
