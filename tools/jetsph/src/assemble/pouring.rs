@@ -142,7 +142,7 @@ fn value((curve, name): &Named, at: &Arguments) -> Result<f64, Fault> {
 /// of what the body has \[m3\].
 fn volume(body: &Body, lattice: &Lattice, dimensions: usize) -> f64 {
     let cell: f64 = lattice.cell[..dimensions].iter().product();
-    let shares = shares(body, lattice, dimensions);
+    let shares = shares(body, lattice, dimensions).part;
     if shares.is_empty() {
         return cell;
     }

@@ -7,8 +7,8 @@
 //! s_a = |body in its cell, and in cells without a particle that are nearest to it| / |cell|
 //! ```
 //!
-//! its mass and the energy of its cell are s_a times those of a whole one: the body has its true volume, and the steps
-//! are of higher order.
+//! its mass and the energy of its cell are s_a times those of a whole one, by the strain in the middle of what it has: the
+//! body has its true volume and the moments of it, and the steps are of higher order.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -28,11 +28,20 @@ const WHOLE: f64 = 1e-12;
 /// Number of a cell along the axes of the lattice.
 type Index = [i64; 3];
 
-/// The share of each particle; none where all cells are whole.
+/// What the particles of a body have of it; nothing where all cells are whole.
+#[derive(Debug, Clone, Default)]
+pub struct Shares {
+    /// s_a.
+    pub part: Vec<f64>,
+    /// Middle of it, seen from the particle along the axes of the lattice \[cells\].
+    pub middle: Vec<[f64; 3]>,
+}
+
+/// The shares of all particles; none where all cells are whole.
 #[must_use]
-pub fn shares(body: &Body, lattice: &Lattice, dimensions: usize) -> Vec<f64> {
+pub fn shares(body: &Body, lattice: &Lattice, dimensions: usize) -> Shares {
     if lattice.fits {
-        return Vec::new();
+        return Shares::default();
     }
     let own: Vec<Index> = lattice
         .places
@@ -40,25 +49,10 @@ pub fn shares(body: &Body, lattice: &Lattice, dimensions: usize) -> Vec<f64> {
         .map(|x| index(lattice, *x, dimensions))
         .collect();
     let taken: BTreeMap<Index, u32> = own.iter().copied().zip(0..).collect();
-    // Cells that the surface may cut lie beside one without a particle, or near the surface.
-    let half = 0.5
-        * lattice.cell[..dimensions]
-            .iter()
-            .fold(0.0, |r: f64, c| r.hypot(*c));
-    let mut cut = BTreeSet::new();
-    for (place, at) in lattice.places.iter().zip(&own) {
-        let free: Vec<Index> = around(*at, dimensions)
-            .filter(|c| !taken.contains_key(c))
-            .collect();
-        if !free.is_empty() || body.distance(*place) > -2.0 * half {
-            cut.insert(*at);
-            cut.extend(free);
-        }
-    }
-    let mut grid = Grid::new(REACH * 2.0 * half);
+    let cut = cut(body, lattice, &own, &taken, dimensions);
+    let mut grid = Grid::new(REACH * 2.0 * half(lattice, dimensions));
     grid.bin(&lattice.places);
-    let cut: Vec<Index> = cut.into_iter().collect();
-    let measured: Vec<BTreeMap<u32, f64>> = cut
+    let measured: Vec<BTreeMap<u32, [f64; 4]>> = cut
         .par_iter()
         .map(|at| {
             measure(
@@ -71,19 +65,57 @@ pub fn shares(body: &Body, lattice: &Lattice, dimensions: usize) -> Vec<f64> {
             )
         })
         .collect();
-    let mut shares = vec![1.0; lattice.places.len()];
+    let n = lattice.places.len();
+    let mut shares = Shares {
+        part: vec![1.0; n],
+        middle: vec![[0.0; 3]; n],
+    };
     for at in &cut {
         if let Some(a) = taken.get(at) {
-            shares[*a as usize] = 0.0;
+            shares.part[*a as usize] = 0.0;
         }
     }
-    for (a, part) in measured.into_iter().flatten() {
-        shares[a as usize] += part;
+    for (a, [part, moments @ ..]) in measured.into_iter().flatten() {
+        shares.part[a as usize] += part;
+        (0..3).for_each(|k| shares.middle[a as usize][k] += moments[k]);
     }
-    if shares.iter().all(|s| (s - 1.0).abs() < WHOLE) {
-        shares.clear();
+    if shares.part.iter().all(|s| (s - 1.0).abs() < WHOLE) {
+        return Shares::default();
+    }
+    for (middle, part) in shares.middle.iter_mut().zip(&shares.part) {
+        middle
+            .iter_mut()
+            .for_each(|x| *x /= part.max(f64::MIN_POSITIVE));
     }
     shares
+}
+
+/// Half of the diagonal of a cell \[m\].
+fn half(lattice: &Lattice, dimensions: usize) -> f64 {
+    let sides = lattice.cell[..dimensions].iter();
+    0.5 * sides.fold(0.0, |r: f64, c| r.hypot(*c))
+}
+
+/// Cells that the surface may cut: they lie beside one without a particle, or near the surface.
+fn cut(
+    body: &Body,
+    lattice: &Lattice,
+    own: &[Index],
+    taken: &BTreeMap<Index, u32>,
+    dimensions: usize,
+) -> Vec<Index> {
+    let near = -2.0 * half(lattice, dimensions);
+    let mut cut = BTreeSet::new();
+    for (place, at) in lattice.places.iter().zip(own) {
+        let free: Vec<Index> = around(*at, dimensions)
+            .filter(|c| !taken.contains_key(c))
+            .collect();
+        if !free.is_empty() || body.distance(*place) > near {
+            cut.insert(*at);
+            cut.extend(free);
+        }
+    }
+    cut.into_iter().collect()
 }
 
 /// The cell of a place.
@@ -106,7 +138,7 @@ fn around(at: Index, dimensions: usize) -> impl Iterator<Item = Index> {
     })
 }
 
-/// Parts of a cell that are the body, by the particle that has them: its own, or the nearest.
+/// Parts of a cell that are the body, with their moments about the particle that has them: its own, or the nearest \[cells\].
 fn measure(
     body: &Body,
     lattice: &Lattice,
@@ -114,7 +146,7 @@ fn measure(
     own: Option<u32>,
     at: Index,
     dimensions: usize,
-) -> BTreeMap<u32, f64> {
+) -> BTreeMap<u32, [f64; 4]> {
     let points = POINTS[dimensions - 2];
     let depth = if dimensions == 3 { points } else { 1 };
     let each = 1.0 / (points * points * depth) as f64;
@@ -136,7 +168,12 @@ fn measure(
         if body.holds(place)
             && let Some(a) = own.or_else(|| nearest(grid, place))
         {
-            *parts.entry(a).or_insert(0.0) += each;
+            let from = lattice.own(lattice.places[a as usize]);
+            let sums: &mut [f64; 4] = parts.entry(a).or_default();
+            sums[0] += each;
+            for k in 0..dimensions {
+                sums[k + 1] += each * (offset[k] - from[k]) / lattice.cell[k];
+            }
         }
     }
     parts
@@ -177,26 +214,39 @@ mod tests {
     }
 
     #[test]
-    fn a_body_has_its_volume_and_its_moment() {
+    fn a_body_has_its_volume_and_its_moments() {
         use std::f64::consts::PI;
         let ring = r#"{"difference": [
             {"disc": {"centre_m": [0.03, 0.01], "radius_m": 1}}, {"disc": {"centre_m": [0.03, 0.01], "radius_m": 0.5}}]}"#;
         for turned in [0.0, 0.4] {
             let (body, lattice) = filled(ring, turned, 2);
             let shares = shares(&body, &lattice, 2);
-            let area: f64 = 0.01 * shares.iter().sum::<f64>();
+            let area: f64 = 0.01 * shares.part.iter().sum::<f64>();
+            let own = lattice.own([0.03, 0.01, 0.0]);
+            for (k, own) in own.into_iter().enumerate().take(2) {
+                let at = |a: usize| lattice.own(lattice.places[a])[k] + 0.1 * shares.middle[a][k];
+                let sum = |power: i32| -> f64 {
+                    let all = shares.part.iter().enumerate();
+                    all.map(|(a, s)| 0.01 * s * (at(a) - own).powi(power)).sum()
+                };
+                assert!(sum(1).abs() < 1e-3, "{}", sum(1));
+                // About each middle there is some d^2/12 left.
+                let exact = 0.25 * PI * (1.0 - 0.5_f64.powi(4));
+                let found = sum(2) + 0.01 / 12.0 * area;
+                assert!((found / exact - 1.0).abs() < 1e-3, "{found} {exact}");
+            }
             // Points of 32 by 32 in some hundred cut cells, alike in eight parts.
             assert!((area / (0.75 * PI) - 1.0).abs() < 5e-4, "{area}");
         }
         let ball = r#"{"sphere": {"centre_m": [0, 0, 0.02], "radius_m": 0.5}}"#;
         let (body, lattice) = filled(ball, 0.0, 3);
-        let volume: f64 = 1e-3 * shares(&body, &lattice, 3).iter().sum::<f64>();
+        let volume: f64 = 1e-3 * shares(&body, &lattice, 3).part.iter().sum::<f64>();
         assert!((volume / (PI / 6.0) - 1.0).abs() < 1e-3, "{volume}");
     }
 
     #[test]
     fn what_stands_along_its_lattice_is_whole() {
         let (body, lattice) = filled(r#"{"box": {"min_m": [0, 0], "max_m": [1, 0.5]}}"#, 0.0, 2);
-        assert!(shares(&body, &lattice, 2).is_empty());
+        assert!(shares(&body, &lattice, 2).part.is_empty());
     }
 }

@@ -190,7 +190,7 @@ mod tests {
             .map(|i| [(i % columns) as f64, (i / columns) as f64, 0.0])
             .collect();
         places.extend((0..rows).map(|j| [-0.5, j as f64, 0.0]));
-        let (links, loose) = Links::<5>::new(&places, particles, [1.0; 3]);
+        let (links, loose) = Links::<5>::new(&places, particles, [1.0; 3], &[]);
         assert!(loose.is_empty());
         let mut force = vec![0.0; places.len()];
         let mut add = |a: usize, parts: [f64; 5], scale: f64| {

@@ -6,7 +6,7 @@ use neighbours::Grid;
 use particles::Rows;
 use rayon::prelude::*;
 
-use super::fit::{SUPPORT, fit};
+use super::fit::{SUPPORT, fit, moved};
 use super::fracture::crossed;
 use super::links::Links;
 
@@ -20,14 +20,17 @@ pub struct Cracks {
     places: Vec<[f64; 3]>,
     /// Middles of their cells, in cells: what breaks are cells, wherever in them particles stand.
     middles: Vec<[f64; 3]>,
+    /// Middles of what the body has of their cells, seen from the particles, in cells; none where all are whole.
+    own: Vec<[f64; 3]>,
     rows: Rows,
     around: Rows,
 }
 
 impl Cracks {
-    /// Of places at rest \[m\], particles before anchors, and the middles of the cells that may break \[m\].
+    /// Of places at rest \[m\], particles before anchors, and the middles of the cells that may break \[m\]; `own` are
+    /// those of what the body has of them, seen from the particles \[cells\].
     #[must_use]
-    pub fn new(rest: &[[f64; 3]], middles: &[[f64; 3]], cell: [f64; 3]) -> Self {
+    pub fn new(rest: &[[f64; 3]], middles: &[[f64; 3]], cell: [f64; 3], own: &[[f64; 3]]) -> Self {
         let particles = middles.len();
         let scaled = |x: &[f64; 3]| [0, 1, 2].map(|k| x[k] / cell[k]);
         let places: Vec<[f64; 3]> = rest.iter().map(scaled).collect();
@@ -38,6 +41,7 @@ impl Cracks {
             rows
         };
         Self {
+            own: own.to_vec(),
             rows: within(SUPPORT),
             around: within(AROUND),
             middles: middles
@@ -110,14 +114,17 @@ impl Cracks {
     /// Weights in cells of the neighbours `row` that are left to particle `a`, and whether they hold it.
     pub(super) fn refit<const T: usize>(&self, a: usize, row: &[u32]) -> (Vec<[f64; T]>, bool) {
         let fewest = if T == 5 { 4 } else { 7 };
-        let fit = fit::<T>(&self.places, self.rows.len(), a, row);
+        let mut fit = fit::<T>(&self.places, self.rows.len(), a, row);
+        if let Some(to) = self.own.get(a) {
+            moved(&mut fit.weights, *to);
+        }
         (fit.weights, fit.held && fit.soft && row.len() >= fewest)
     }
 
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.rows.bytes() + self.around.bytes() + 48 * self.places.len()
+        self.rows.bytes() + self.around.bytes() + 48 * self.places.len() + 24 * self.own.len()
     }
 }
 
@@ -169,8 +176,8 @@ mod tests {
         let places: Vec<[f64; 3]> = (0..81)
             .map(|i| [f64::from(i % 9), f64::from(i / 9), 0.0])
             .collect();
-        let (mut links, _) = Links::<5>::new(&places, 81, [1.0; 3]);
-        let cracks = Cracks::new(&places, &places, [1.0; 3]);
+        let (mut links, _) = Links::<5>::new(&places, 81, [1.0; 3], &[]);
+        let cracks = Cracks::new(&places, &places, [1.0; 3], &[]);
         // A column of broken particles.
         let fresh: Vec<usize> = (0..9).map(|j| 9 * j + 4).collect();
         let broken: Vec<bool> = (0..81).map(|a| fresh.contains(&a)).collect();

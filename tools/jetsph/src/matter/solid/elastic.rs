@@ -63,7 +63,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let mut rest = set.column(&REST).to_vec();
         let n = rest.len();
         rest.extend_from_slice(&body.anchor_rest);
-        let (links, loose) = Links::new(&rest, n, body.size);
+        let (links, loose) = Links::new(&rest, n, body.size, &body.shares.middle);
         let mut stage = Self {
             places: vec![[0.0; L]; n + body.anchors.len()],
             answers: vec![[[0.0; L]; T]; n],
@@ -101,7 +101,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             .cell
             .volume
             .powf(if T == 5 { 0.5 } else { 1.0 / 3.0 });
-        let cracks = Cracks::new(&rest, middles, self.body.size);
+        let cracks = Cracks::new(&rest, middles, self.body.size, &self.body.shares.middle);
         let moment = self.body.cell.moment;
         let stiffness = (0..n).map(|a| stiffness(self.links.row(a).weight, moment));
         let stiffness = stiffness.collect();

@@ -214,6 +214,17 @@ fn balance<const T: usize>(weights: &mut [[f64; T]], anchor: [f64; 3], dimension
     }
 }
 
+/// Takes the slopes of a cell in the middle of what it has of the body, `to` from the particle \[cells\]: F + c . dF/dX.
+pub(super) fn moved<const T: usize>(weights: &mut [[f64; T]], to: [f64; 3]) {
+    let dimensions = if T == 5 { 2 } else { 3 };
+    for weight in weights {
+        for k in 0..dimensions {
+            let along = (0..dimensions).map(|l| to[l] * weight[second(dimensions, k, l)]);
+            weight[k] += along.sum::<f64>();
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::links::Links;
@@ -241,7 +252,7 @@ mod tests {
 
     fn stiffest<const T: usize>(jitter: f64, sides: [usize; 3]) -> f64 {
         let places = shaken(jitter, sides);
-        let (links, loose) = Links::<T>::new(&places, places.len(), [1.0; 3]);
+        let (links, loose) = Links::<T>::new(&places, places.len(), [1.0; 3], &[]);
         assert!(loose.is_empty());
         let each = (0..places.len()).map(|a| stiffness(links.row(a).weight, [1.0 / 12.0; 3]));
         each.fold(0.0, f64::max)

@@ -7,7 +7,8 @@
 //! d^m x / dX^m (i) = sum_j w_ij^m (x_j - x_i)
 //! ```
 //!
-//! exact for every quadratic on any cloud, at free faces too. Weights are those of the reference state and never change
+//! exact for every quadratic on any cloud, at free faces too. Where a surface cuts cells, first derivatives are those in the middle
+//! of what the body has of a cell. Weights are those of the reference state and never change
 //! while the particle has its neighbours.
 
 use std::collections::BTreeMap;
@@ -16,7 +17,7 @@ use neighbours::Grid;
 use particles::Rows;
 use rayon::prelude::*;
 
-use super::fit::{Fit, Fitted, SUPPORT, fit};
+use super::fit::{Fit, Fitted, SUPPORT, fit, moved};
 use super::sides::{in_order, of_pair, seen};
 use super::stencils::Stencils;
 
@@ -45,9 +46,15 @@ pub struct Row<'a, const T: usize> {
 
 impl<const T: usize> Links<T> {
     /// Links of the first `particles` of `places` to each other and to the others, the anchors; `cell` is the size of
-    /// the lattice's cells \[m\]. Gives the particles that too few neighbours hold, too.
+    /// the lattice's cells \[m\], and derivatives are those at `middles`, seen from the particles \[cells\], or at the particles if none.
+    /// Gives the particles that too few neighbours hold, too.
     #[must_use]
-    pub fn new(places: &[[f64; 3]], particles: usize, cell: [f64; 3]) -> (Self, Vec<usize>) {
+    pub fn new(
+        places: &[[f64; 3]],
+        particles: usize,
+        cell: [f64; 3],
+        middles: &[[f64; 3]],
+    ) -> (Self, Vec<usize>) {
         // In cells, where the lattice is cubic.
         let scaled: Vec<[f64; 3]> = places
             .iter()
@@ -58,7 +65,13 @@ impl<const T: usize> Links<T> {
         rows.within(&scaled[..particles], &grid, SUPPORT);
         let fitted: Vec<Fit<T>> = (0..particles)
             .into_par_iter()
-            .map(|a| fit(&scaled, particles, a, rows.row(a)))
+            .map(|a| {
+                let mut fit = fit(&scaled, particles, a, rows.row(a));
+                if let Some(to) = middles.get(a) {
+                    moved(&mut fit.weights, *to);
+                }
+                fit
+            })
             .collect();
         let loose = fitted.iter().enumerate().filter(|(_, fit)| !fit.held);
         let loose = loose.map(|(a, _)| a).collect();
@@ -200,7 +213,7 @@ mod tests {
     fn inexact<const T: usize>(shake: f64, dimensions: usize) -> f64 {
         let cell = [0.01, 0.012, 0.009];
         let places = cloud(shake, dimensions, 5, cell);
-        let (links, loose) = Links::<T>::new(&places, places.len(), cell);
+        let (links, loose) = Links::<T>::new(&places, places.len(), cell, &[]);
         assert!(loose.is_empty());
         let exact: [f64; T] = std::array::from_fn(|m| 1.0 + m as f64);
         let field = |x: [f64; 3], y: [f64; 3]| -> f64 {
@@ -231,11 +244,32 @@ mod tests {
     }
 
     #[test]
+    fn slopes_are_those_of_quadratics_in_the_middles() {
+        let places = cloud(0.1, 2, 5, [1.0; 3]);
+        let middles: Vec<[f64; 3]> = (0..places.len())
+            .map(|a| [0.3 * (a as f64).sin(), 0.4 * (a as f64).cos(), 0.0])
+            .collect();
+        let (links, _) = Links::<5>::new(&places, places.len(), [1.0; 3], &middles);
+        let field = |[x, y, _]: [f64; 3]| 2.0 * x - y + 0.5 * x * x - x * y + 0.7 * y * y;
+        for (a, to) in middles.iter().enumerate() {
+            let [x, y] = [0, 1].map(|k| places[a][k] + to[k]);
+            let exact = [2.0 + x - y, -1.0 - x + 1.4 * y];
+            let row = links.row(a);
+            for (k, exact) in exact.into_iter().enumerate() {
+                let others = row.other.iter().zip(row.weight);
+                let rise = |b: &u32| field(places[*b as usize]) - field(places[a]);
+                let found: f64 = others.map(|(b, w)| w[k] * rise(b)).sum();
+                assert!((found - exact).abs() < 1e-9, "{a} {k}: {found} {exact}");
+            }
+        }
+    }
+
+    #[test]
     fn linear_fields_are_exact_in_two_rows() {
         let places: Vec<[f64; 3]> = (0..12)
             .map(|i| [f64::from(i % 6), f64::from(i / 6), 0.0])
             .collect();
-        let (links, loose) = Links::<5>::new(&places, places.len(), [1.0; 3]);
+        let (links, loose) = Links::<5>::new(&places, places.len(), [1.0; 3], &[]);
         assert!(loose.is_empty());
         for a in 0..places.len() {
             let row = links.row(a);
@@ -268,7 +302,7 @@ mod tests {
                     ]
                 })
                 .collect();
-            let (links, loose) = Links::<5>::new(&places, places.len(), [1.0; 3]);
+            let (links, loose) = Links::<5>::new(&places, places.len(), [1.0; 3], &[]);
             assert!(loose.is_empty());
             let weights = (0..places.len()).flat_map(|a| links.row(a).weight.to_vec());
             weights.fold(0.0_f64, |most, w| most.max(w[4].abs()))
@@ -280,7 +314,7 @@ mod tests {
     #[test]
     fn what_hangs_on_too_few_neighbours_is_told() {
         let places = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
-        let (_, loose) = Links::<5>::new(&places, 3, [1.0; 3]);
+        let (_, loose) = Links::<5>::new(&places, 3, [1.0; 3], &[]);
         assert_eq!(loose, [0, 1, 2]);
     }
 }

@@ -146,6 +146,7 @@ mod tests {
     use super::super::law::{Elastic as Constants, Law, Young};
     use super::super::tensor::UNIT;
     use super::*;
+    use crate::matter::shares::Shares;
     use crate::state::MASS;
 
     /// A sheet of 9 by 9 cells of 1 mm under a uniform pull in y, with those that are broken in it.
@@ -159,7 +160,7 @@ mod tests {
             set: 0,
             cell: Cell::new(Law::new(&Constants::Young(young), None), size, 2),
             size,
-            shares: Vec::new(),
+            shares: Shares::default(),
             anchor_rest: Vec::new(),
             anchors: Vec::new(),
             loads: Vec::new(),
