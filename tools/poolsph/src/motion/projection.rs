@@ -25,10 +25,9 @@
 //! h. The error in C, 1e-7 (L/h) times the share dt^2 J acc, stays far below the tolerance; the
 //! part by u* is summed in the same way in double precision.
 
+use neighbours::ROWS;
 use particles::Matter;
 use rayon::prelude::*;
-
-use neighbours::ROWS;
 use shapes::frame::{difference, dot, squared};
 
 use super::lattice::Lattice;
@@ -253,12 +252,8 @@ impl Projection {
             .collect_into_vec(&mut self.moved);
         near.complete(&mut self.moved, |[u, v, w, _], k, turn| {
             let u = turn.vector([u, v, w]);
-            [
-                u[0],
-                u[1],
-                u[2],
-                dot(u, difference(near.position[k], origin)),
-            ]
+            let x = difference(near.position[k], origin);
+            [u[0], u[1], u[2], dot(u, x)]
         });
         let moved = &self.moved;
         near.each_row(
