@@ -1,7 +1,7 @@
 # saw-coarse: the 5 s of saw-600a on particles of 1 mm, half beside its mirror plane. The arc is that of gmaw-600a.
 
 .PHONY: saw-coarse
-saw-coarse: build/saw-coarse/report.html ## a submerged arc weld of 5 s on coarse particles (a quarter of an hour)
+saw-coarse: build/saw-coarse/report.html ## a submerged arc weld of 5 s on coarse particles (half an hour)
 
 build/saw-coarse/bed.mcap: pipelines/saw-600a/bed.json pipelines/saw-coarse/bed.patch.json $(BIN)/poolsph always
 	$(RERUN) $(BIN)/poolsph run pipelines/saw-600a/bed.json --patch pipelines/saw-coarse/bed.patch.json --out $@ $(MACHINE)
