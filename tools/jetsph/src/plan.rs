@@ -9,7 +9,7 @@ use crate::memory;
 use crate::scene::{Method, Scene};
 use crate::simulate::endless;
 
-/// Spacings in the length over which a solid breaks from which on a crack takes the same energy within 10 % (`fracture-energy`).
+/// Spacings in the length over which a solid breaks from which on a crack takes the same energy within 12 % (`fracture-energy`).
 const RESOLVED: f64 = 4.0;
 
 /// What is done before a run, and told by `check`.
@@ -73,7 +73,7 @@ fn noted(mut plan: Plan, scene: &Scene) -> Plan {
             .map_or(f64::INFINITY, |length| length / solid.spacing_m);
         if cells < RESOLVED {
             plan = plan.note(format!(
-                "'fracture_length_m' of \"{}\" is {cells:.2} spacings: strength is the same on any spacing, the energy of a crack within 10 % from {RESOLVED} on",
+                "'fracture_length_m' of \"{}\" is {cells:.2} spacings: strength is the same on any spacing, the energy of a crack within 12 % from {RESOLVED} on",
                 solid.name
             ));
         }

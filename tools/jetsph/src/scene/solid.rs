@@ -33,8 +33,9 @@ pub struct Solid {
     pub plasticity: Option<Plasticity>,
     /// When it breaks; never if absent.
     pub fracture: Option<Criterion>,
-    /// Length over which 'fracture' takes the mean of strain or stress, so that strength and energy of a crack are the same on any
-    /// spacing up to it; by each cell alone if absent, and then both depend on the spacing.
+    /// Length over which 'fracture' takes the mean of strain or stress, so that the strength is the same on
+    /// any spacing up to it, and the energy of a crack within 12 % from four spacings on; by each cell alone if absent, and then both
+    /// depend on the spacing.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0))]
     pub fracture_length_m: Option<f64>,
     /// Artificial viscosity (38); none if absent.

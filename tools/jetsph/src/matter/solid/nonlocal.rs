@@ -1,4 +1,4 @@
-//! Fracture by what a box of the solid bears: the same on any spacing.
+//! Fracture by what a box of the solid bears, on any spacing.
 //!
 //! ```text
 //! C_l = sum_b w_ab C_b / sum_b w_ab,   C = F^T F,   w_ab the part of cell b in the box of length l around cell a
