@@ -29,6 +29,8 @@ const COURANT: f64 = 0.4;
 const PRESSURE_TIME: f64 = 5e-3;
 /// More substeps than this are no longer a flow.
 const SUBSTEPS_MAX: u32 = 32;
+/// Part of what is left of a step that rounding may take.
+const ROUNDED: f64 = 1e-9;
 
 /// p \[Pa\] as frames show it.
 pub(crate) const PRESSURE: Column<f64> = Column::new("pressure", "Pa", 0.0).shown();
@@ -137,8 +139,8 @@ impl Motion {
         }
     }
 
-    /// Number of substeps for the fastest particle; an error if it is no longer a flow.
-    fn divide(&mut self, state: &State, dt: f64) -> Result<u32, StageError> {
+    /// An error if the fastest particle is no longer part of a flow in a step of `dt` \[s\]; its speed \[m/s\].
+    fn fastest(&self, state: &State, dt: f64) -> Result<f64, StageError> {
         let near = &state.near;
         let fastest = near.fastest_squared();
         let speed = fastest.sqrt();
@@ -158,18 +160,54 @@ impl Motion {
                 unit: "m/s",
             });
         }
-        let courant = (speed * dt / (COURANT * state.metal.matter.spacing))
-            .ceil()
-            .max(1.0);
+        Ok(speed)
+    }
+
+    /// Number of substeps of `dt` \[s\] for a greatest `speed` \[m/s\].
+    fn divide(&mut self, near: &Near, metal: Matter, speed: f64, dt: f64) -> u32 {
+        let courant = (speed * dt / (COURANT * metal.spacing)).ceil().max(1.0);
         let viscous = (dt / self.viscosity.limit()).ceil().max(1.0);
         let falling = (dt / self.fall).ceil();
-        let capillary = (dt / capillary::limit(near, state.metal.matter)).ceil();
+        let capillary = (dt / capillary::limit(near, metal)).ceil();
         let mut substeps = courant.max(viscous).max(falling).max(capillary);
         if self.parameters.method == Method::DivergenceFree {
-            let closing = dt / self.closing.limit(near, state.metal.matter.spacing);
+            let closing = dt / self.closing.limit(near, metal.spacing);
             substeps = substeps.max(closing.ceil());
         }
-        Ok(substeps as u32)
+        substeps as u32
+    }
+
+    /// Takes a step of `dt` \[s\] in as many parts as the flow needs at its beginning; where it is without divergence, what is left
+    /// is divided anew after each of them.
+    fn march(&mut self, state: &mut State, dt: f64, borne: [f64; 3]) -> Result<(), StageError> {
+        let metal = state.metal.matter;
+        let speed = self.fastest(state, dt)?;
+        let mut left = self.divide(&state.near, metal, speed, dt);
+        let mut share = 1.0 / f64::from(left);
+        let mut step = Step {
+            metal,
+            dt: dt / f64::from(left),
+            share,
+        };
+        let mut rest = 1.0;
+        self.substeps = 0;
+        loop {
+            self.substep(&mut state.near, step, borne);
+            self.substeps += 1;
+            (left, rest) = (left - 1, rest - share);
+            if left == 0 {
+                return Ok(());
+            }
+            state.near.refresh(&state.faces);
+            if self.parameters.method == Method::DivergenceFree {
+                let speed = self.fastest(state, dt)?;
+                let needed = self.divide(&state.near, metal, speed, rest * dt * (1.0 - ROUNDED));
+                if needed != left {
+                    (left, share) = (needed, rest / f64::from(needed));
+                    (step.dt, step.share) = (share * dt, share);
+                }
+            }
+        }
     }
 
     /// The pressure that particles carry.
@@ -258,7 +296,6 @@ impl Stage for Motion {
         }
         self.viscosity
             .take(&state.near, state.metal.column(&TEMPERATURE))?;
-        self.substeps = self.divide(state, dt)?;
         self.projection.pressure.clear();
         let start = |&id: &u32| self.multiplier.get(id as usize).copied().unwrap_or(0.0) as f32;
         self.projection
@@ -267,11 +304,6 @@ impl Stage for Motion {
         self.divergence_free
             .pressure
             .clone_from(&self.projection.pressure);
-        let step = Step {
-            metal: state.metal.matter,
-            dt: dt / f64::from(self.substeps),
-            share: 1.0 / f64::from(self.substeps),
-        };
         let gravity = self.parameters.gravity_m_s2.unwrap_or_default();
         let borne = [0, 1, 2].map(|axis| {
             if state.faces.is_periodic(axis) {
@@ -280,12 +312,7 @@ impl Stage for Motion {
                 gravity[axis]
             }
         });
-        for k in 0..self.substeps {
-            if k > 0 {
-                state.near.refresh(&state.faces);
-            }
-            self.substep(&mut state.near, step, borne);
-        }
+        self.march(state, dt, borne)?;
         state.near.fold(&state.faces);
         self.speed = state.near.fastest_squared().sqrt();
         self.scatter(state, dt);

@@ -97,13 +97,15 @@ impl Islands {
         while let Some(a) = self.members.get(next).copied() {
             for &b in near.lists.row(a as usize) {
                 let b = b as usize;
-                let by = if near.role[b] == Role::Wet {
-                    [true; 3]
-                } else {
-                    near.images().turn(b).map_or([false; 3], Turn::holds)
-                };
-                held = std::array::from_fn(|k| held[k] || by[k]);
-                self.take(near, near.images().original(b));
+                match near.role[b] {
+                    Role::Liquid => self.take(near, b),
+                    Role::Wet => held = [true; 3],
+                    Role::Backing | Role::Image => {
+                        let by = near.images().turn(b).map_or([false; 3], Turn::holds);
+                        held = std::array::from_fn(|k| held[k] || by[k]);
+                        self.take(near, near.images().original(b));
+                    }
+                }
             }
             next += 1;
         }

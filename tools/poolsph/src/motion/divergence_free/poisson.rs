@@ -6,6 +6,10 @@ use neighbours::ROWS;
 
 use crate::motion::step::{Solved, Tolerance};
 use crate::near::{Near, Role};
+use crate::sweep::GRAIN;
+
+/// Chunks of rows per unit of parallel work.
+const CHUNKS: usize = GRAIN / ROWS;
 
 /// Rows of sum of w (p_a - p_b) + ... = right; zero for solid particles.
 #[derive(Debug, Clone, Default)]
@@ -19,7 +23,8 @@ pub(super) struct Poisson {
     residual: Vec<f32>,
     direction: Vec<f32>,
     product: Vec<f32>,
-    partial: Vec<f64>,
+    /// Sums over chunks of rows.
+    partial: Vec<[f64; 2]>,
 }
 
 impl Poisson {
@@ -30,7 +35,7 @@ impl Poisson {
         for column in [&mut self.residual, &mut self.direction, &mut self.product] {
             column.resize(n, 0.0);
         }
-        self.partial.resize(n.div_ceil(ROWS), 0.0);
+        self.partial.resize(n.div_ceil(ROWS), [0.0; 2]);
     }
 
     /// Improves `p` until the mean change of volume that is left is within the tolerance.
@@ -43,38 +48,28 @@ impl Poisson {
         multiply(near, &self.equations, p, &mut self.product);
         let rows = self.residual.par_iter_mut().zip(&self.equations);
         rows.zip(&self.product)
-            .with_min_len(ROWS)
+            .with_min_len(GRAIN)
             .for_each(|((residual, [_, right]), product)| *residual = right - product);
         self.direction.fill(0.0);
         let mut solved = Solved::default();
         let mut last = 0.0;
+        let [mut left, mut square] = self.go(0.0, p);
         loop {
-            let sum = self.sum(|[_, _], residual, _, _| residual.abs());
-            solved.density_error = self.scale * sum / liquid;
+            solved.density_error = self.scale * left / liquid;
             let enough =
                 solved.sweeps >= tolerance.sweeps_min && solved.density_error <= tolerance.density;
-            if enough || solved.sweeps >= tolerance.sweeps_max {
-                break;
-            }
-            let square = self.sum(|[diagonal, _], r, _, _| {
-                if diagonal > 0.0 {
-                    r * r / diagonal
-                } else {
-                    0.0
-                }
-            });
-            if square <= 0.0 {
+            if enough || solved.sweeps >= tolerance.sweeps_max || square <= 0.0 {
                 break;
             }
             self.turn(if last > 0.0 { square / last } else { 0.0 });
             last = square;
             near.complete(&mut self.direction, |p, _, _| p);
             multiply(near, &self.equations, &self.direction, &mut self.product);
-            let bend = self.sum(|_, _, direction, product| direction * product);
+            let bend = self.bend();
             if bend <= 0.0 {
                 break;
             }
-            self.go((square / bend) as f32, p);
+            [left, square] = self.go((last / bend) as f32, p);
             solved.sweeps += 1;
         }
         near.complete(p, |p, _, _| p);
@@ -84,7 +79,10 @@ impl Poisson {
     /// Without a surface the pressure is known but for a constant, and what the right sides sum to cannot be met: their
     /// mean is taken away, and that of the pressure.
     fn level(&mut self, liquid: f64, p: &mut [f32]) {
-        let mean = (self.sum(|[_, right], _, _, _| right) / liquid) as f32;
+        let rights = self.equations.chunks(ROWS);
+        let rights =
+            rights.map(|rows| rows.iter().map(|[_, right]| f64::from(*right)).sum::<f64>());
+        let mean = (rights.sum::<f64>() / liquid) as f32;
         for [diagonal, right] in &mut self.equations {
             if *diagonal > 0.0 {
                 *right -= mean;
@@ -103,7 +101,7 @@ impl Poisson {
     fn turn(&mut self, part: f64) {
         let part = part as f32;
         let rows = self.direction.par_iter_mut().zip(&self.equations);
-        rows.zip(&self.residual).with_min_len(ROWS).for_each(
+        rows.zip(&self.residual).with_min_len(GRAIN).for_each(
             |((direction, [diagonal, _]), residual)| {
                 let steep = if *diagonal > 0.0 {
                     residual / diagonal
@@ -115,36 +113,46 @@ impl Poisson {
         );
     }
 
-    /// p + way direction.
-    fn go(&mut self, way: f32, p: &mut [f32]) {
-        let rows = self.residual.par_iter_mut().zip(p);
-        rows.zip(&self.direction)
-            .zip(&self.product)
-            .with_min_len(ROWS)
-            .for_each(|(((residual, p), direction), product)| {
-                *p += way * direction;
-                *residual -= way * product;
-            });
+    /// p + way direction, and the residual there. Gives the sums of its magnitudes and of its squares over the diagonal.
+    fn go(&mut self, way: f32, p: &mut [f32]) -> [f64; 2] {
+        let rows = self.partial.par_iter_mut();
+        let rows = rows.zip(self.residual.par_chunks_mut(ROWS));
+        rows.zip(p.par_chunks_mut(ROWS))
+            .zip(self.equations.par_chunks(ROWS))
+            .zip(self.direction.par_chunks(ROWS))
+            .zip(self.product.par_chunks(ROWS))
+            .with_min_len(CHUNKS)
+            .for_each(
+                |(((((sums, residual), p), equations), direction), product)| {
+                    let columns = residual.iter_mut().zip(p).zip(equations);
+                    let columns = columns.zip(direction).zip(product);
+                    *sums = [0.0; 2];
+                    for ((((residual, p), [diagonal, _]), direction), product) in columns {
+                        *p += way * direction;
+                        *residual -= way * product;
+                        let r = f64::from(*residual);
+                        sums[0] += r.abs();
+                        if *diagonal > 0.0 {
+                            sums[1] += r * r / f64::from(*diagonal);
+                        }
+                    }
+                },
+            );
+        let sums = self.partial.iter();
+        sums.fold([0.0; 2], |sum, part| [sum[0] + part[0], sum[1] + part[1]])
     }
 
-    /// Sum of what `each` makes of equation, residual, direction and product, chunks in their order.
-    fn sum(&mut self, each: impl Fn([f64; 2], f64, f64, f64) -> f64 + Sync) -> f64 {
-        let rows = self
-            .partial
-            .par_iter_mut()
-            .zip(self.equations.par_chunks(ROWS));
-        let rows = rows.zip(self.residual.par_chunks(ROWS));
+    /// Sum of direction times product.
+    fn bend(&mut self) -> f64 {
+        let rows = self.partial.par_iter_mut();
         rows.zip(self.direction.par_chunks(ROWS))
             .zip(self.product.par_chunks(ROWS))
-            .for_each(|((((sum, equations), residual), direction), product)| {
-                let rows = equations.iter().zip(residual).zip(direction).zip(product);
-                *sum = rows
-                    .map(|(((e, r), d), p)| {
-                        each(e.map(f64::from), (*r).into(), (*d).into(), (*p).into())
-                    })
-                    .sum();
+            .with_min_len(CHUNKS)
+            .for_each(|((sum, direction), product)| {
+                let terms = direction.iter().zip(product);
+                sum[0] = terms.map(|(d, p)| f64::from(*d) * f64::from(*p)).sum();
             });
-        self.partial.iter().sum()
+        self.partial.iter().map(|sum| sum[0]).sum()
     }
 
     /// Bytes held.

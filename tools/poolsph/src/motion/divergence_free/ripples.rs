@@ -87,14 +87,23 @@ impl Ripples {
         });
         let apart = &self.apart;
         self.change.resize(near.len(), [0.0; 3]);
-        near.each_row(&mut self.change, |a, row, change| {
-            *change = [0.0; 3];
-            if near.role[a] == Role::Liquid {
-                *change = liquid(near, a, row).fold(apart[a], |sum, (b, w, x)| {
-                    along(sum, -w * share(fit[b], x.map(|x| -x)), apart[b])
-                });
-            }
-        });
+        near.each_row(
+            &mut self.change,
+            #[inline(always)]
+            |a, row, change| {
+                *change = [0.0; 3];
+                if near.role[a] == Role::Liquid {
+                    // Off the surface nothing is apart.
+                    let around = row.values().filter(|(b, _)| {
+                        fit.get(*b).is_some_and(|fit| fit[0] > 0.0) && near.role[*b] == Role::Liquid
+                    });
+                    *change = around.fold(apart[a], |sum, (b, w)| {
+                        let way = difference(near.position[a], near.position[b]);
+                        along(sum, -w * share(fit[b], way), apart[b])
+                    });
+                }
+            },
+        );
         for (u, change) in predicted.iter_mut().zip(&self.change) {
             *u = along(*u, -part, *change);
         }

@@ -19,6 +19,7 @@ mod quadric;
 use kernels::CubicSpline;
 use neighbours::{Grid, Lists, ROWS};
 use particles::Matter;
+use particles::sweep::wide;
 use rayon::prelude::*;
 use shapes::frame::{along, difference, squared};
 
@@ -64,7 +65,9 @@ pub struct Curvature {
     /// What stands beside faces of other contact angles than right ones, and the sums of W then; none without such faces.
     askew: Option<Askew>,
     number: Vec<f64>,
-    /// Parts of the sums of W and grad W that dry metal has; empty without any.
+    /// How little the liquid wets each member and image, and the parts of the sums of W and grad W that dry metal has; empty
+    /// without any.
+    dryness: Vec<f64>,
     dry: Vec<[f64; 4]>,
     /// Members that tell of the surface.
     members: Vec<u32>,
@@ -92,6 +95,7 @@ impl Curvature {
             turned: Vec::new(),
             askew: None,
             number: Vec::new(),
+            dryness: Vec::new(),
             dry: Vec::new(),
             members: Vec::new(),
             places: Vec::new(),
@@ -145,30 +149,43 @@ impl Curvature {
         });
         let (gradient, own) = (&self.gradient, near.kernel.value(0.0));
         self.turned.resize(near.len(), [0.0; 3]);
-        near.each_row(&mut self.turned, |a, row, out| {
-            let start = gradient[a].map(|x| volume * own * x);
-            let values = row.values();
-            *out = values.fold(start, |sum, (b, w)| along(sum, volume * w, gradient[b]));
-        });
+        let least = STEEP[0] / self.smoothing_length;
+        near.each_row(
+            &mut self.turned,
+            #[inline(always)]
+            |a, row, out| {
+                *out = [0.0; 3];
+                // Deeper ones tell nothing of the surface.
+                if squared(gradient[a]) > least * least {
+                    let start = gradient[a].map(|x| volume * own * x);
+                    let values = row.values();
+                    *out = values.fold(start, |sum, (b, w)| along(sum, volume * w, gradient[b]));
+                }
+            },
+        );
     }
 
     /// Takes what the liquid does not wet out of the sums of W and grad W: to its surface that is no metal.
     fn bare(&mut self, near: &Near) {
-        let kernel = &near.kernel;
+        self.dryness.clone_from(&near.dry);
+        near.complete(&mut self.dryness, |dry, _, _| dry);
+        let dryness = &self.dryness;
         self.dry.resize(near.len(), [0.0; 4]);
-        near.each_row(&mut self.dry, |a, row, sums| {
-            *sums = [0.0; 4];
-            for b in row.index.iter().map(|b| *b as usize) {
-                let dry = near.dry[near.images().original(b)];
-                if dry > 0.0 {
+        near.each_row(
+            &mut self.dry,
+            #[inline(always)]
+            |a, row, sums| {
+                *sums = [0.0; 4];
+                let values = row.values().zip(row.slope);
+                for ((b, value), slope) in values.filter(|((b, _), _)| dryness[*b] > 0.0) {
                     let way = difference(near.position[a], near.position[b]);
-                    let sample = kernel.sample(squared(way).sqrt());
-                    let [x, y, z] = way.map(|x| dry * sample.slope * x);
-                    let more = [dry * sample.value, x, y, z];
-                    *sums = std::array::from_fn(|i| sums[i] + more[i]);
+                    let (part, slope) = (dryness[b], f64::from(*slope));
+                    let [x, y, z] = way.map(|x| slope * x);
+                    let more = [value, x, y, z];
+                    *sums = std::array::from_fn(|i| sums[i] + part * more[i]);
                 }
-            }
-        });
+            },
+        );
         let rows = self.number.iter_mut().zip(&mut self.gradient);
         for ((number, gradient), [value, x, y, z]) in rows.zip(&self.dry) {
             *number -= value;
@@ -241,17 +258,17 @@ impl Curvature {
         let reach = REACH * self.smoothing_length;
         let most = SHARPEST / self.spacing;
         let (samples, lists) = (&self.samples, &self.lists);
-        let places = 0..self.members.len();
-        places
-            .into_par_iter()
-            .with_min_len(ROWS / 4)
-            .map(|k| {
+        each(
+            self.members.len(),
+            &mut self.found,
+            #[inline(always)]
+            |k| {
                 let around = lists.row(k).iter().map(|b| &samples[*b as usize]);
                 let mut shape = shape(&samples[k], around, reach)?;
                 shape.curvature = shape.curvature.clamp(-most, most);
                 Some(shape)
-            })
-            .collect_into_vec(&mut self.found);
+            },
+        );
     }
 
     /// kappa + c (kappa - S kappa) with the mean S over the places around, weighted as in the fit.
@@ -260,10 +277,11 @@ impl Curvature {
         let most = GIVEN / self.spacing;
         let (samples, lists, images) = (&self.samples, &self.lists, &self.images);
         let found = &self.found;
-        (0..found.len())
-            .into_par_iter()
-            .with_min_len(ROWS / 4)
-            .map(|k| {
+        each(
+            found.len(),
+            &mut self.sharpened,
+            #[inline(always)]
+            |k| {
                 let mut shape = found[k]?;
                 let (mut sum, mut weight) = (0.0, 0.0);
                 let row = lists.row(k).iter().map(|b| *b as usize);
@@ -279,8 +297,8 @@ impl Curvature {
                     shape.curvature += taken.clamp(-most, most);
                 }
                 Some(shape)
-            })
-            .collect_into_vec(&mut self.sharpened);
+            },
+        );
     }
 
     /// Brings the curvatures to the particles.
@@ -320,9 +338,27 @@ impl Curvature {
             + (size_of::<Sample>() + 24 + 4 + 32) * self.samples.capacity()
             + self.lists.bytes()
             + 8 * self.number.capacity()
+            + 8 * self.dryness.capacity()
             + 32 * self.dry.capacity()
             + self.askew.as_ref().map_or(0, Askew::bytes)
     }
+}
+
+/// The shapes that `of` finds at `n` places.
+fn each(n: usize, shapes: &mut Vec<Option<Shape>>, of: impl Fn(usize) -> Option<Shape> + Sync) {
+    shapes.clear();
+    shapes.resize(n, None);
+    let parts = shapes.par_chunks_mut(ROWS / 4).enumerate();
+    parts.for_each(|(part, shapes)| {
+        wide(
+            #[inline(always)]
+            || {
+                for (k, shape) in shapes.iter_mut().enumerate() {
+                    *shape = of(part * (ROWS / 4) + k);
+                }
+            },
+        );
+    });
 }
 
 #[cfg(test)]

@@ -57,32 +57,32 @@ const FEWEST: u32 = 6;
 /// what they always tell.
 const DAMPING: [f64; 2] = [1e-3, 1e-9];
 
-/// Normal equations of the fit in units of the reach: lower half, row by row, and the right side.
+/// Normal equations of the fit in units of the reach: six rows of a matrix of which the lower half is used, the right side
+/// behind them, and a column that means nothing: eight numbers are one vector.
 #[derive(Default)]
-struct Equations {
-    matrix: [[f64; 6]; 6],
-    right: [f64; 6],
-}
+struct Equations([[f64; 8]; 6]);
 
 impl Equations {
-    /// Adds a row `f . unknowns = value` with a weight.
+    /// Adds a row `f . unknowns = value` with a weight; the `value` stands behind the six numbers of f, of which those of the `places`
+    /// are not zero.
     #[inline(always)]
-    fn add(&mut self, weight: f64, f: [f64; 6], value: f64) {
-        for i in 0..6 {
+    fn add<const N: usize>(&mut self, weight: f64, f: [f64; 8], places: [usize; N]) {
+        for i in places {
             let part = weight * f[i];
-            self.right[i] += part * value;
-            for (entry, f) in self.matrix[i].iter_mut().zip(&f[..=i]) {
+            for (entry, f) in self.0[i].iter_mut().zip(f) {
                 *entry += part * f;
             }
         }
     }
 
     /// c, t, K: xx, xy, yy, by Cholesky's factors.
-    fn solve(mut self) -> [f64; 6] {
-        for i in 0..6 {
-            self.matrix[i][i] += DAMPING[usize::from(i < 3)];
+    #[inline(always)]
+    fn solve(self) -> [f64; 6] {
+        let mut m = self.0;
+        let mut x = m.map(|row| row[6]);
+        for (i, row) in m.iter_mut().enumerate() {
+            row[i] += DAMPING[usize::from(i < 3)];
         }
-        let (m, x) = (&mut self.matrix, &mut self.right);
         for i in 0..6 {
             for j in 0..=i {
                 let dot: f64 = (0..j).map(|k| m[i][k] * m[j][k]).sum();
@@ -100,39 +100,44 @@ impl Equations {
             let dot: f64 = (i + 1..6).map(|k| m[k][i] * x[k]).sum();
             x[i] = (x[i] - dot) / m[i][i];
         }
-        *x
+        x
     }
 }
 
 /// Shape of the surface at `middle` from the places `around` within `reach` \[m\]; none from fewer than six.
 #[must_use]
+#[inline(always)]
 pub fn shape<'a>(
     middle: &'a Sample,
     around: impl Iterator<Item = &'a Sample>,
     reach: f64,
 ) -> Option<Shape> {
     let (u, v) = tangents(middle.normal);
-    let mut equations = Equations::default();
-    let mut places = 0;
-    for sample in std::iter::once(middle).chain(around) {
-        let way = difference(sample.place, middle.place).map(|x| x / reach);
-        let chord = squared(way);
+    let (mut equations, mut places) = (Equations::default(), 0);
+    let mut take = |sample: &Sample| {
         let weight = middle.weight(sample, reach);
         if weight <= 0.0 {
-            continue;
+            return;
         }
+        let way = difference(sample.place, middle.place).map(|x| x / reach);
         let [x, y, z] = [u, v, middle.normal].map(|axis| dot(way, axis));
         let flat = x * x + y * y;
-        let stretch = if flat > 0.0 { chord / flat } else { 1.0 };
-        let [a, b, c] = [0.5 * x * x, x * y, 0.5 * y * y].map(|x| -stretch * x);
+        let stretch = if flat > 0.0 { squared(way) / flat } else { 1.0 };
+        let bent = [0.5 * x * x, x * y, 0.5 * y * y].map(|x| -stretch * x);
+        let [a, b, c] = bent;
         let [p, q] = [u, v].map(|axis| dot(sample.normal, axis));
-        equations.add(weight, [1.0, -x, -y, a, b, c], z);
-        equations.add(weight, [0.0, 1.0, 0.0, x, y, 0.0], p);
-        equations.add(weight, [0.0, 0.0, 1.0, 0.0, x, y], q);
+        equations.add(weight, [1.0, -x, -y, a, b, c, z, 0.0], [0, 1, 2, 3, 4, 5]);
+        equations.add(weight, [0.0, 1.0, 0.0, x, y, 0.0, p, 0.0], [1, 3, 4]);
+        equations.add(weight, [0.0, 0.0, 1.0, 0.0, x, y, q, 0.0], [2, 4, 5]);
         places += 1;
+    };
+    take(middle);
+    around.for_each(take);
+    if places < FEWEST {
+        return None;
     }
     let [.., xx, xy, yy] = equations.solve().map(|x| x / reach);
-    (places >= FEWEST).then_some(Shape {
+    Some(Shape {
         curvature: xx + yy,
         squares: xx * xx + 2.0 * xy * xy + yy * yy,
         places,
