@@ -73,8 +73,9 @@ fn least_eigenvalue([xx, yy, zz, yz, zx, xy]: [f64; 6]) -> f64 {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Crowd {
     around: Vec<Around>,
-    /// By rows.
+    /// By rows, as how much of a step velocities are led on.
     loads: Vec<Load>,
+    leads: Vec<f64>,
     /// Contacts by particles of metal.
     on_metal: Vec<f64>,
 }
@@ -165,9 +166,9 @@ impl Crowd {
     /// How much of a step the velocities of the rows from a first one on are led on to its end, for dashpots and sliders.
     pub(super) fn leads(&self) -> impl Fn(usize, &mut [f64]) + Sync + '_ {
         |first, leads| {
-            let around = self.around.get(first..).unwrap_or_default();
-            for (lead, around) in leads.iter_mut().zip(around) {
-                *lead = around.lead();
+            let counted = self.leads.get(first..).unwrap_or_default();
+            for (lead, counted) in leads.iter_mut().zip(counted) {
+                *lead = *counted;
             }
         }
     }
@@ -176,6 +177,7 @@ impl Crowd {
         let rows = seen.grains.len();
         self.around.resize(rows, Around::default());
         self.loads.resize(rows, Load::default());
+        self.leads.resize(rows, Around::default().lead());
         let chunks = self.around.par_chunks_mut(ROWS).enumerate();
         let chunks = chunks.with_max_len(AT_ONCE);
         chunks.for_each(|(place, around)| seen.meet(lists, place, around));
@@ -196,15 +198,17 @@ impl Crowd {
         let cells = self
             .loads
             .par_chunks_mut(CELL)
-            .zip(self.around.par_chunks(CELL));
+            .zip(self.leads.par_chunks_mut(CELL));
+        let cells = cells.zip(self.around.par_chunks(CELL));
         let cells = cells.zip(seen.grains.par_chunks(CELL)).enumerate();
         let awake = cells
             .with_min_len(ROWS / CELL)
             .with_max_len(AT_ONCE * ROWS / CELL)
             .filter(|(cell, _)| !seen.sleeps(cell * CELL));
-        awake.for_each(|(_, ((loads, around), grains))| {
-            for ((load, around), grain) in loads.iter_mut().zip(around).zip(grains) {
-                *load = around.load(grain.mass, c);
+        awake.for_each(|(_, (((loads, leads), around), grains))| {
+            let each = loads.iter_mut().zip(leads).zip(around).zip(grains);
+            for (((load, lead), around), grain) in each {
+                (*load, *lead) = (around.load(grain.mass, c), around.lead());
             }
         });
     }
@@ -214,7 +218,7 @@ impl Crowd {
         Loaded {
             mass: seen.grains[row].mass,
             load: self.loads[row],
-            lead: self.around[row].lead(),
+            lead: self.leads[row],
         }
     }
 

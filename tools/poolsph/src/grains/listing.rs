@@ -3,6 +3,7 @@
 use super::Motion;
 use super::lists::Lists;
 use super::sleep::Sleep;
+use super::wall_list::Places;
 
 impl Motion {
     /// Lists afresh who may touch metal.
@@ -14,7 +15,7 @@ impl Motion {
 
     /// Lists neighbours afresh; contacts that touch go along.
     pub(super) fn list(&mut self) {
-        let (grains, listed) = (&self.moving.grains, &self.moving.listed);
+        let (grains, listed) = (&self.moving.grains, &mut self.moving.listed);
         self.lists.mark_again(grains, listed, self.setting.radii);
         self.lists.memories(&mut self.memories[0], false);
         self.walls.memories(&mut self.memories[1]);
@@ -32,12 +33,19 @@ impl Motion {
         self.listings += 1.0;
         let (grains, radii) = (&self.moving.grains, self.setting.radii);
         let [between, at_walls] = &self.memories;
-        self.moving.listed.clear();
-        self.moving.listed.extend(grains.iter().map(|g| g.position));
-        self.lists.list(grains, radii, between);
+        let listed = &mut self.moving.listed;
+        if self.lists.again.is_all() {
+            listed.clear();
+            listed.extend(grains.iter().map(|g| g.position));
+        }
+        self.lists.list(grains, listed, radii, between);
         let skin = Lists::skin(radii[0]);
-        let still = &self.lists.again.still;
-        self.walls.list(grains, still, skin, at_walls);
+        let places = Places {
+            listed,
+            still: &self.lists.again.still,
+            skin,
+        };
+        self.walls.list(grains, places, at_walls);
         if let Some(sleep) = &mut self.sleep {
             sleep.list(&self.lists, grains.len());
         }

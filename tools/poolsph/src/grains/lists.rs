@@ -24,6 +24,8 @@ pub const ROWS: usize = 512;
 pub const AT_ONCE: usize = 4;
 /// Skin over the least radius. Wider lists last longer and cost more in each step.
 const SKIN: f64 = 0.4;
+/// Part of the skin up to which a grain that has moved keeps the place at which it is listed.
+const KEPT: f64 = 0.125;
 
 /// Two grains that may touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -138,6 +140,8 @@ impl Part {
 /// Where pairs are looked for.
 struct Search<'a> {
     grains: &'a [Grain],
+    /// Where they are listed \[m\].
+    places: &'a [Vector],
     grid: &'a Grid,
     /// Beyond touching \[m\].
     skin: f64,
@@ -156,6 +160,7 @@ impl Chunk {
     fn list(&mut self, first: usize, search: &Search<'_>) {
         let Search {
             grains,
+            places,
             grid,
             skin,
             widest,
@@ -163,15 +168,16 @@ impl Chunk {
         self.pairs.clear();
         let end = (first + ROWS).min(grains.len());
         let mut outgoing: Vec<Pair> = Vec::new();
-        for (a, own) in grains.iter().enumerate().take(end).skip(first) {
+        for a in first..end {
+            let (own, place) = (&grains[a], places[a]);
             let starts = (self.pairs.len(), outgoing.len());
             let reach = own.radius + widest + skin;
             let far = own.radius + skin;
-            grid.runs(own.position, reach, |run| {
+            grid.runs(place, reach, |run| {
                 for (at, b) in grid.sorted()[run.clone()].iter().zip(&grid.order()[run]) {
                     if (*b as usize) > a {
                         let within = far + grains[*b as usize].radius;
-                        if squared(difference(own.position, *at)) < within * within {
+                        if squared(difference(place, *at)) < within * within {
                             let pair = Pair {
                                 other: *b,
                                 own: (a - first) as u16,
@@ -233,7 +239,6 @@ impl Chunk {
 #[derive(Debug, Clone)]
 pub struct Lists {
     grid: Option<Grid>,
-    places: Vec<Vector>,
     /// By chunks of rows.
     pub chunks: Vec<Chunk>,
     rows: usize,
@@ -248,7 +253,6 @@ impl Lists {
     pub fn new(rolls: bool) -> Self {
         Self {
             grid: None,
-            places: Vec::new(),
             chunks: Vec::new(),
             rows: 0,
             again: Again::default(),
@@ -262,20 +266,25 @@ impl Lists {
         SKIN * least_radius
     }
 
-    /// Lists the pairs of `grains` whose radii go from `least` to `widest` \[m\], but in chunks whose pairs stay; `memories` of
-    /// the others, by rows, go along.
-    pub fn list(&mut self, grains: &[Grain], [least, widest]: [f64; 2], memories: &[Memory]) {
+    /// Lists the pairs of `grains` at the `places` \[m\] whose radii go from `least` to `widest` \[m\], but in chunks whose pairs stay;
+    /// `memories` of the others, by rows, go along.
+    pub fn list(
+        &mut self,
+        grains: &[Grain],
+        places: &[Vector],
+        [least, widest]: [f64; 2],
+        memories: &[Memory],
+    ) {
         let skin = Self::skin(least);
         let edge = 2.0 * widest + skin;
-        self.places.clear();
-        self.places.extend(grains.iter().map(|g| g.position));
         let grid = self.grid.get_or_insert_with(|| Grid::new(edge));
-        grid.bin(&self.places);
+        grid.bin(places);
         let count = grains.len().div_ceil(ROWS);
         self.chunks.resize_with(count, Chunk::default);
         let rolls = self.rolls;
         let search = Search {
             grains,
+            places,
             grid,
             skin,
             widest,
@@ -314,10 +323,17 @@ impl Lists {
         }
     }
 
-    /// Marks the chunks whose pairs stay, of `grains` that were `listed` \[m\] and whose radii go from `least` to `widest` \[m\].
-    pub fn mark_again(&mut self, grains: &[Grain], listed: &[Vector], [least, widest]: [f64; 2]) {
-        let reach = 2.0 * widest + Self::skin(least);
-        self.again.find(grains, listed, ROWS, reach);
+    /// Brings the places at which `grains` are `listed` \[m\], whose radii go from `least` to `widest` \[m\], to where those are that have
+    /// gone farther than a part of the skin, and marks the chunks whose pairs stay.
+    pub fn mark_again(
+        &mut self,
+        grains: &[Grain],
+        listed: &mut [Vector],
+        [least, widest]: [f64; 2],
+    ) {
+        let skin = Self::skin(least);
+        let within = [KEPT * skin, 2.0 * widest + skin];
+        self.again.find(grains, listed, ROWS, within);
     }
 
     /// Finds what of each chunk is reckoned where cells sleep by `depth`.
@@ -370,6 +386,6 @@ impl Lists {
                 + size_of::<Push>() * c.outgoing.capacity()
                 + size_of::<Incoming>() * c.incoming.capacity()
         };
-        self.chunks.iter().map(chunk).sum::<usize>() + 28 * self.places.capacity()
+        self.chunks.iter().map(chunk).sum()
     }
 }

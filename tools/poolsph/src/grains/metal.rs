@@ -23,6 +23,7 @@ use super::law::Laws;
 use super::memory::Memory;
 use super::metal_heat::{Contacts, Exchange};
 use super::metal_pair::{Body, Pair};
+use super::near::AT_LEAST;
 use crate::state::State;
 
 /// Skin of the list over the least radius.
@@ -54,6 +55,8 @@ pub struct Metal {
     pub(super) flowing: Option<Halo>,
     /// Where bodies and grains were when they were listed \[m\].
     pub(super) listed: [Vec<Vector>; 2],
+    /// Sum of the farthest ways of the steps since then \[m\].
+    pub(super) gone: f64,
     pub(super) grid: Option<Grid>,
     pub(super) places: Vec<Vector>,
     pub(super) near: Vec<bool>,
@@ -82,6 +85,7 @@ impl Metal {
             seen: Vec::new(),
             flowing: None,
             listed: [Vec::new(), Vec::new()],
+            gone: 0.0,
             grid: None,
             places: Vec::new(),
             near: Vec::new(),
@@ -138,7 +142,7 @@ impl Metal {
             own.friction = Some(contact::Friction { coefficient });
         }
         let bodies = &self.bodies;
-        let pairs = self.pairs.par_iter_mut().with_min_len(64);
+        let pairs = self.pairs.par_iter_mut().with_min_len(AT_LEAST);
         pairs.for_each(|pair| {
             if depth.always().kept(pair.near.row as usize) {
                 return;

@@ -21,6 +21,8 @@ use crate::state::{PHASE, State, phase};
 const AHEAD: f64 = 2.0;
 /// Particles of metal that a thread looks around at once.
 const BODIES: usize = 128;
+/// Part of a sum of ways that rounding may take.
+const ROUNDED: f64 = 1e-6;
 
 impl Metal {
     /// Chooses the grains that are looked at: all, or those whose forces do not stay as they are by `depth` and those
@@ -224,11 +226,12 @@ impl Metal {
         of_bodies.extend(self.bodies.iter().map(|body| body.grain.position));
         of_grains.clear();
         of_grains.extend_from_slice(&self.places);
+        self.gone = 0.0;
     }
 
-    /// Whether someone may touch who is not listed.
+    /// Whether someone may touch who is not listed, after a step in which no grain has gone farther than `way` \[m\].
     #[must_use]
-    pub fn strayed(&self, grains: &[Grain]) -> bool {
+    pub fn strayed(&mut self, grains: &[Grain], way: f64) -> bool {
         let [of_bodies, of_grains] = &self.listed;
         let squared = |(now, then): (Vector, &Vector)| {
             let way = difference(now, *then);
@@ -236,6 +239,11 @@ impl Metal {
         };
         let bodies = self.bodies.iter().map(|body| body.grain.position);
         let far = bodies.zip(of_bodies).map(squared).fold(0.0, f64::max);
+        // No grain has gone farther than all of these ways together, and most of them far less.
+        self.gone += way;
+        if far.sqrt() + self.gone * (1.0 + ROUNDED) <= self.skin {
+            return false;
+        }
         let rows = self.rows.par_iter().with_min_len(1024);
         let farther = rows.map(|row| grains[*row as usize].position);
         let farther = farther.zip(of_grains).map(squared);

@@ -34,6 +34,7 @@ mod doubts;
 pub mod faces;
 pub mod fill;
 mod glued;
+pub mod gone;
 mod greater;
 pub mod heat;
 pub mod heat_parameters;

@@ -12,6 +12,7 @@ use super::bounds::{Doing, Setting};
 use super::columns::STATE;
 use super::crowd::{self, Crowd};
 use super::depth::{Depth, Reckoned};
+use super::gone::Gone;
 use super::heat::Heat;
 use super::laid::{self, Laid};
 use super::law::{Law, Laws};
@@ -181,28 +182,34 @@ impl Motion {
     }
 
     /// One step to `time` \[s\], of which `left` \[s\] are left then in the step of the run. Gives the length of the step that
-    /// follows, if its prediction is made, and how far grains have gone with it since neighbours were listed \[m\].
+    /// follows, if its prediction is made, and how far grains have gone with it.
     fn step(
         &mut self,
         time: f64,
         step: f64,
         left: f64,
-        predicted: Option<f64>,
-    ) -> Result<Option<[f64; 2]>, OutOfRange> {
-        let far = match predicted {
-            Some(far) => far,
+        predicted: Option<Gone>,
+    ) -> Result<Option<(f64, Gone)>, OutOfRange> {
+        let gone = match predicted {
+            Some(gone) => gone,
             None => self
                 .moving
                 .predict(step, depth(&self.sleep), self.crowd.leads()),
         };
         self.walls.drift(time, step)?;
         let driven = self.moving.drive(time, step)?;
-        if self.strayed(far.max(driven)) || far.is_nan() {
+        if self.strayed(gone.far.max(driven)) || gone.far.is_nan() {
             self.list();
         }
+        // What is driven or glued goes its own way.
+        let way = if self.moving.drives() {
+            f64::INFINITY
+        } else {
+            gone.way
+        };
         if let Some(metal) = &mut self.metal {
             metal.predict(step);
-            if metal.strayed(&self.moving.grains) {
+            if metal.strayed(&self.moving.grains, way) {
                 self.list_metal();
             }
         }
@@ -214,7 +221,7 @@ impl Motion {
         // By the speeds of the step before, which one step hardly changes.
         let next = (left > 0.0 && !self.moving.drives()).then(|| self.part(left));
         let (depth, leads) = (depth(&self.sleep), self.crowd.leads());
-        let [fastest, far] = self.moving.correct(step, next, depth, leads);
+        let (fastest, gone) = self.moving.correct(step, next, depth, leads);
         if let Some(metal) = &mut self.metal {
             metal.correct(step);
         }
@@ -227,7 +234,7 @@ impl Motion {
         if let Some(sleep) = &mut self.sleep {
             sleep.count(self.moving.grains.len());
         }
-        Ok(next.map(|next| [next, far]))
+        Ok(next.map(|next| (next, gone)))
     }
 
     /// Heat of a step of `dt` \[s\] between grains and with metal; who has melted or set wakes.
@@ -297,10 +304,10 @@ impl Stage for Motion {
             while done < dt && !self.doing.fastest.is_nan() {
                 self.parts += 1;
                 let left = dt - done;
-                let step = next.map_or_else(|| self.part(left), |[step, _]: [f64; 2]| step);
+                let step = next.map_or_else(|| self.part(left), |(step, _): (f64, Gone)| step);
                 // The last is what is left, to the bit.
                 done = if step < left { done + step } else { dt };
-                let predicted = next.map(|[_, far]| far);
+                let predicted = next.map(|(_, gone)| gone);
                 next = self.step(state.time + done, step, dt - done, predicted)?;
             }
             Ok(())

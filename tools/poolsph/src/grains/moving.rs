@@ -8,14 +8,20 @@ use shapes::frame::{Vector, difference, dot};
 
 use super::depth::{CELL, asleep};
 use super::glued::{Glued, Grains};
+use super::gone::Gone;
 use super::greater::greater;
 use super::lists::{AT_ONCE, ROWS};
 use super::verlet::{Lead, Verlet};
 use super::walls::velocity;
 use super::{DRIVEN, FORCE, LISTED, MASS, MOMENT, RADIUS, SPIN, TURNED, VELOCITY, WATCHED};
 
-/// Cells of a unit of parallel work.
-const CELLS: usize = ROWS / CELL;
+/// Rows, within a chunk of so many, of each of its cells that is awake by `depth`.
+#[inline(always)]
+fn awake(depth: &[u8], chunk: usize, rows: usize) -> impl Iterator<Item = std::ops::Range<usize>> {
+    let cells = (0..rows).step_by(CELL);
+    let cells = cells.filter(move |row| !asleep(depth, chunk * ROWS + row));
+    cells.map(move |row| row..rows.min(row + CELL))
+}
 
 /// A grain that is held to a velocity.
 #[derive(Debug, Clone, Copy)]
@@ -179,11 +185,11 @@ impl Moving {
         Ok(())
     }
 
-    /// x += dt u + dt^2/2 a, u += dt a, or as much of that as `lead` says for the rows from a first one on. Gives the farthest way since neighbours were listed
-    /// \[m\]; no number where one is none.
+    /// x += dt u + dt^2/2 a, u += dt a, or as much of that as `lead` says for the rows from a first one on. Gives how far grains
+    /// have gone.
     ///
     /// What sleeps by `depth` stands still.
-    pub fn predict(&mut self, step: f64, depth: &[u8], lead: impl Lead) -> f64 {
+    pub fn predict(&mut self, step: f64, depth: &[u8], lead: impl Lead) -> Gone {
         let verlet = self.verlet(step);
         self.leads.resize(self.grains.len(), 1.0);
         for driven in &mut self.driven {
@@ -191,27 +197,27 @@ impl Moving {
         }
         let forces = self
             .force
-            .par_chunks(CELL)
-            .zip(self.moment.par_chunks(CELL));
-        let places = (self.leads.par_chunks_mut(CELL)).zip(self.listed.par_chunks(CELL));
-        let grains = self.grains.par_chunks_mut(CELL).with_min_len(CELLS);
-        let far = grains.zip(forces).zip(places).enumerate();
-        let far = far.with_max_len(AT_ONCE * CELLS);
-        let far = far.map(|(cell, ((grains, (force, moment)), (leads, listed)))| {
-            let mut far = 0.0;
-            if asleep(depth, cell * CELL) {
-                return far;
+            .par_chunks(ROWS)
+            .zip(self.moment.par_chunks(ROWS));
+        let places = (self.leads.par_chunks_mut(ROWS)).zip(self.listed.par_chunks(ROWS));
+        let far = self.grains.par_chunks_mut(ROWS).zip(forces).zip(places);
+        let far = far.enumerate().with_max_len(AT_ONCE);
+        let far = far.map(|(chunk, ((grains, (force, moment)), (leads, listed)))| {
+            let mut gone = Gone::default();
+            for cell in awake(depth, chunk, grains.len()) {
+                lead(chunk * ROWS + cell.start, &mut leads[cell.clone()]);
+                let forces = force[cell.clone()].iter().zip(&moment[cell.clone()]);
+                let each = grains[cell.clone()].iter_mut().zip(&leads[cell.clone()]);
+                for (((grain, lead), (force, moment)), listed) in
+                    each.zip(forces).zip(&listed[cell])
+                {
+                    let square = verlet.predict(grain, [force, moment], *lead);
+                    gone.note(grain, listed, square);
+                }
             }
-            lead(cell * CELL, leads);
-            let each = (grains.iter_mut().zip(leads)).zip(force.iter().zip(moment));
-            for (((grain, lead), (force, moment)), listed) in each.zip(listed) {
-                verlet.predict(grain, [force, moment], *lead);
-                let way = difference(grain.position, *listed);
-                far = greater(far, dot(way, way));
-            }
-            far
+            gone
         });
-        far.reduce(|| 0.0, greater).sqrt()
+        far.reduce(Gone::default, Gone::farther).rooted()
     }
 
     /// Keeps the forces of the step before; new ones take their place.
@@ -222,65 +228,63 @@ impl Moving {
     }
 
     /// u += dt/2 (a' - a), or dt/2 a', but for what sleeps by `depth`. Where a step of `next` \[s\] follows, its prediction is made at once, for
-    /// grains are then in fast memory. Gives the greatest speed \[m/s\], and the farthest way since neighbours were listed
-    /// \[m\] where the next step was predicted; no number where one is none.
+    /// grains are then in fast memory. Gives the greatest speed \[m/s\], no number where one is none, and how far grains have gone
+    /// where the next step was predicted.
     pub fn correct(
         &mut self,
         step: f64,
         next: Option<f64>,
         depth: &[u8],
         lead: impl Lead,
-    ) -> [f64; 2] {
+    ) -> (f64, Gone) {
         let verlet = self.verlet(step);
         let following = next.map(|next| self.verlet(next));
         let forces = self
             .force
-            .par_chunks(CELL)
-            .zip(self.moment.par_chunks(CELL));
+            .par_chunks(ROWS)
+            .zip(self.moment.par_chunks(ROWS));
         let [before, turned] = &self.before;
-        let old = before.par_chunks(CELL).zip(turned.par_chunks(CELL));
-        let places = (self.leads.par_chunks_mut(CELL)).zip(self.listed.par_chunks(CELL));
+        let old = before.par_chunks(ROWS).zip(turned.par_chunks(ROWS));
+        let places = (self.leads.par_chunks_mut(ROWS)).zip(self.listed.par_chunks(ROWS));
         let rest = forces.zip(old).zip(places);
-        let grains = self.grains.par_chunks_mut(CELL).with_min_len(CELLS);
-        let most = grains.zip(rest).enumerate();
-        let most = most.with_max_len(AT_ONCE * CELLS);
-        let most = most.map(|(cell, (grains, ((forces, old), (leads, listed))))| {
-            let (mut fastest, mut far) = (0.0, 0.0);
-            if asleep(depth, cell * CELL) {
-                return [fastest, far];
-            }
-            let both = (forces.0.iter().zip(forces.1)).zip(old.0.iter().zip(old.1));
-            for ((grain, lead), (now, before)) in grains.iter_mut().zip(&*leads).zip(both) {
-                verlet.correct(grain, [now.0, now.1], [before.0, before.1], *lead);
-                fastest = greater(fastest, dot(grain.velocity, grain.velocity));
-            }
-            if let Some(following) = &following {
-                lead(cell * CELL, leads);
-                let now = (leads.iter().zip(listed)).zip(forces.0.iter().zip(forces.1));
-                for (grain, ((lead, listed), now)) in grains.iter_mut().zip(now) {
-                    following.predict(grain, [now.0, now.1], *lead);
-                    let way = difference(grain.position, *listed);
-                    far = greater(far, dot(way, way));
+        let most = self.grains.par_chunks_mut(ROWS).zip(rest).enumerate();
+        let most = most.with_max_len(AT_ONCE);
+        let most = most.map(|(chunk, (grains, ((forces, old), (leads, listed))))| {
+            let (mut fastest, mut gone) = (0.0, Gone::default());
+            for cell in awake(depth, chunk, grains.len()) {
+                let grains = &mut grains[cell.clone()];
+                let (leads, listed) = (&mut leads[cell.clone()], &listed[cell.clone()]);
+                let now = [&forces.0[cell.clone()], &forces.1[cell.clone()]];
+                let before = [&old.0[cell.clone()], &old.1[cell.clone()]];
+                for (k, (grain, lead)) in grains.iter_mut().zip(&*leads).enumerate() {
+                    let forces = [now, before].map(|[force, moment]| [&force[k], &moment[k]]);
+                    verlet.correct(grain, forces[0], forces[1], *lead);
+                    fastest = greater(fastest, dot(grain.velocity, grain.velocity));
+                }
+                if let Some(following) = &following {
+                    lead(chunk * ROWS + cell.start, leads);
+                    for (k, (grain, lead)) in grains.iter_mut().zip(&*leads).enumerate() {
+                        let square = following.predict(grain, now.map(|forces| &forces[k]), *lead);
+                        gone.note(grain, &listed[k], square);
+                    }
                 }
             }
-            [fastest, far]
+            (fastest, gone)
         });
-        let greatest = |a: [f64; 2], b: [f64; 2]| [greater(a[0], b[0]), greater(a[1], b[1])];
-        let [fastest, far] = most.reduce(|| [0.0; 2], greatest).map(f64::sqrt);
+        let greatest = |a: (f64, Gone), b: (f64, Gone)| (greater(a.0, b.0), a.1.farther(b.1));
+        let (fastest, gone) = most.reduce(Default::default, greatest);
         for driven in &self.driven {
             let grain = &mut self.grains[driven.row];
             (grain.velocity, grain.spin) = (driven.velocity[1], [0.0; 3]);
         }
         let (glued, mut all) = self.glued();
         glued.correct(&mut all, step);
-        [
-            if self.drives() {
-                self.fastest()
-            } else {
-                fastest
-            },
-            far,
-        ]
+        let fastest = if self.drives() {
+            self.fastest()
+        } else {
+            fastest.sqrt()
+        };
+        (fastest, gone.rooted())
     }
 
     /// Whether grains are driven or glued.

@@ -5,6 +5,9 @@ use shapes::frame::Vector;
 
 use super::memory::Memory;
 
+/// Contacts that a thread takes at least: to share fewer costs more than it saves.
+pub(super) const AT_LEAST: usize = 512;
+
 /// A grain near a face, or near a particle of metal.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Near {

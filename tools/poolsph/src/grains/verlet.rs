@@ -20,17 +20,26 @@ pub(super) struct Verlet {
 }
 
 impl Verlet {
-    /// x += dt u + dt^2/2 a, u += `lead` dt a.
+    /// x += dt u + dt^2/2 a, u += `lead` dt a. Gives the square of the way \[m2\].
     #[inline(always)]
-    pub(super) fn predict(&self, grain: &mut Grain, [force, moment]: [&Vector; 2], lead: f64) {
+    pub(super) fn predict(
+        &self,
+        grain: &mut Grain,
+        [force, moment]: [&Vector; 2],
+        lead: f64,
+    ) -> f64 {
         let (step, inverse) = (self.step, 1.0 / grain.mass);
         let turns = lead * step * inverse / (self.inertia_factor * grain.radius * grain.radius);
+        let mut square = 0.0;
         for k in 0..3 {
             let gained = step * (force[k] * inverse + self.gravity[k]);
-            grain.position[k] += step * (grain.velocity[k] + 0.5 * gained);
+            let way = step * (grain.velocity[k] + 0.5 * gained);
+            grain.position[k] += way;
             grain.velocity[k] += lead * gained;
             grain.spin[k] += turns * moment[k];
+            square += way * way;
         }
+        square
     }
 
     /// u += dt (a'/2 + (1/2 - `lead`) a).

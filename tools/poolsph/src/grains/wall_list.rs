@@ -9,9 +9,22 @@ use super::memory::Memory;
 use super::near::Near;
 use super::walls::{Wall, Walls};
 
+/// Where grains are listed.
+#[derive(Clone, Copy)]
+pub struct Places<'a> {
+    /// \[m\], by rows.
+    pub listed: &'a [Vector],
+    /// By chunks of rows, whether these are as they were when neighbours were listed before; none where nothing is known.
+    pub still: &'a [bool],
+    /// How far beyond touching a wall is listed \[m\].
+    pub skin: f64,
+}
+
 impl Walls {
-    /// Lists the grains within `skin` \[m\] of each wall; `memories`, by walls and rows, go along. Chunks of grains that are `still` are not looked at where the wall is far from them.
-    pub fn list(&mut self, grains: &[Grain], still: &[bool], skin: f64, memories: &[Memory]) {
+    /// Lists the grains within the skin \[m\] of each wall, at their places \[m\]; `memories`, by walls and rows, go along. Chunks whose places are
+    /// still the same are not looked at where the wall is far from them.
+    pub fn list(&mut self, grains: &[Grain], places: Places<'_>, memories: &[Memory]) {
+        let Places { skin, .. } = places;
         for (w, wall) in self.walls.iter_mut().enumerate() {
             wall.listed = wall.moved;
             wall.near.clear();
@@ -19,7 +32,7 @@ impl Walls {
                 pressed.rows.clear();
             }
             wall.far.resize(grains.len().div_ceil(ROWS), None);
-            let distances = wall.distances(grains, still);
+            let distances = wall.distances(grains.len(), places);
             for ((c, chunk), distances) in grains.chunks(ROWS).enumerate().zip(distances) {
                 let Some(distances) = distances else { continue };
                 let (mut nearest, mut odd) = (f64::INFINITY, false);
@@ -50,12 +63,12 @@ impl Walls {
 }
 
 impl Wall {
-    /// Distances of grains by chunks \[m\]; none of those that are `still` and too far to be listed.
-    fn distances(&self, grains: &[Grain], still: &[bool]) -> Vec<Option<Vec<f64>>> {
-        let chunks = grains.par_chunks(ROWS).enumerate();
+    /// Distances of places by chunks \[m\]; none of those that are still the same and too far to be listed.
+    fn distances(&self, rows: usize, places: Places<'_>) -> Vec<Option<Vec<f64>>> {
+        let chunks = places.listed[..rows].par_chunks(ROWS).enumerate();
         let looked = chunks.map(|(c, chunk)| {
-            let still = still.get(c).copied().unwrap_or(false);
-            let away = |g: &Grain| self.face.distance(difference(g.position, self.moved));
+            let still = places.still.get(c).copied().unwrap_or(false);
+            let away = |place: &Vector| self.face.distance(difference(*place, self.moved));
             (!(still && self.is_far(c))).then(|| chunk.iter().map(away).collect())
         });
         looked.with_max_len(AT_ONCE).collect()

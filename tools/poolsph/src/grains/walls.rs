@@ -12,7 +12,7 @@ use super::faces::Face;
 use super::law::Laws;
 use super::light::Light;
 use super::memory::Memory;
-use super::near::Near;
+use super::near::{AT_LEAST, Near};
 use super::pressure::Pressed;
 use super::wall_parameters::WallScene;
 
@@ -185,7 +185,9 @@ impl Walls {
             }
             let (face, moved, mirror) = (&wall.face, wall.moved, wall.mirror);
             let velocity = along(wall.velocity, 1.0, wall.sliding);
-            let near = wall.near[..wall.reckoned].par_iter_mut().with_min_len(64);
+            let near = wall.near[..wall.reckoned]
+                .par_iter_mut()
+                .with_min_len(AT_LEAST);
             near.for_each(|near| {
                 if depth.kept(near.row as usize) {
                     return;
@@ -238,7 +240,7 @@ impl Walls {
                 (row, wall.face.at(place, grains[row].radius).1)
             };
             let rows: Vec<usize> = wall.touching(depth).collect();
-            let met = rows.into_par_iter().with_min_len(64).map(normal);
+            let met = rows.into_par_iter().with_min_len(AT_LEAST).map(normal);
             let met: Vec<(usize, Vector)> = met.collect();
             met.into_iter().for_each(|(row, normal)| meet(row, normal));
         }
