@@ -180,3 +180,34 @@ fn a_wire_beyond_the_domain() {
     ];
     refused("arcfvm", scene, &wire, &["--input", &input], &words);
 }
+
+/// Coordinates are rounded by 1e-16 of their size: points come to lie on one another.
+#[test]
+fn bodies_too_far_from_the_origin_for_their_points() {
+    const WORDS: &str = "are told apart up to";
+    for far in [1e13_f64, 1e300, -1e13] {
+        let sphere = json!({"centre_m": [0, 0, far]});
+        let patch = json!({"liquid": {"shape": {"sphere": &sphere}}});
+        let drop = "pipelines/verify/liquid-drop/scene.json";
+        refused("emfield", drop, &patch, &[], &["/liquid/shape", WORDS]);
+        let (min, max) = (far - 0.1 * far.abs(), far + 0.1 * far.abs());
+        let domain = json!({"min_m": [0, 0, min], "max_m": [0.025, 0.025, max]});
+        let domain = json!({"domain": {"box": domain}});
+        let loops = "pipelines/verify/em-sphere-loops/scene.json";
+        let words = ["/domain/box/min_m/2", WORDS];
+        refused("emfield", loops, &domain, &[], &words);
+        let disc = json!({"body": {"cylinder": {"centre_m": [0, 0, far]}}});
+        let shock = "pipelines/verify/heat-shock-disc/scene.json";
+        refused("heatsph", shock, &disc, &[], &["/body", WORDS]);
+        let bar = json!({
+            "name": "bar",
+            "body": {"cylinder": {"centre_m": [0, 0, far], "radius_m": 0.02, "length_m": 0.2}},
+            "spacing_m": 0.005,
+            "density_kg_m3": 1000,
+            "elastic": {"youngs_modulus_pa": 2e6, "poisson_ratio": 0.3975}
+        });
+        let solid = "pipelines/verify/solid-bar/scene.json";
+        let solids = json!({"solids": [bar]});
+        refused("jetsph", solid, &solids, &[], &["/solids/0/body", WORDS]);
+    }
+}

@@ -22,7 +22,8 @@ impl Scene {
         let dimensions = self.geometry.dimensions();
         let fields = self.electrostatics.is_some() || self.eddy_currents.is_some();
         if self.domain != Domain::default() {
-            self.domain.check(self.geometry, &mut misfits);
+            self.domain
+                .check(self.geometry, self.points.spacing_m, &mut misfits);
         } else if fields {
             misfits.push(Misfit::at(
                 "",
@@ -203,7 +204,7 @@ fn check_bodies(bodies: &[BodyScene], dimensions: usize, misfits: &mut Vec<Misfi
 }
 
 impl Domain {
-    fn check(&self, geometry: Geometry, misfits: &mut Vec<Misfit>) {
+    fn check(&self, geometry: Geometry, spacing: f64, misfits: &mut Vec<Misfit>) {
         let axisymmetric = geometry == Geometry::Axisymmetric;
         let dimensions = geometry.dimensions();
         match self {
@@ -211,6 +212,8 @@ impl Domain {
                 let both = check::coordinates(&b.min_m, "/domain/box/min_m", dimensions, misfits)
                     & check::coordinates(&b.max_m, "/domain/box/max_m", dimensions, misfits);
                 for k in (0..dimensions).filter(|_| both) {
+                    let at = format!("/domain/box/min_m/{k}");
+                    check::reach([b.min_m[k], b.max_m[k]], &at, spacing, misfits);
                     if b.max_m[k] <= b.min_m[k] {
                         let what = format!("{} m is not above min_m, {} m", b.max_m[k], b.min_m[k]);
                         misfits.push(Misfit::at(&format!("/domain/box/max_m/{k}"), what));
@@ -224,6 +227,10 @@ impl Domain {
             Self::Sphere(s) => {
                 let at = "/domain/sphere/centre_m";
                 let fits = check::coordinates(&s.centre_m, at, dimensions, misfits);
+                for (k, c) in s.centre_m.iter().enumerate().filter(|_| fits) {
+                    let ends = [c - s.radius_m, c + s.radius_m];
+                    check::reach(ends, &format!("{at}/{k}"), spacing, misfits);
+                }
                 if fits && axisymmetric && s.centre_m[0] != 0.0 {
                     let what = format!("r = {} m: the centre lies on the axis", s.centre_m[0]);
                     misfits.push(Misfit::at("/domain/sphere/centre_m/0", what));

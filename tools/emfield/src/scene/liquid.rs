@@ -119,7 +119,8 @@ fn order() -> u8 {
 impl Liquid {
     pub(super) fn check(&self, scene: &Scene, misfits: &mut Vec<Misfit>) {
         let dimensions = scene.geometry.dimensions();
-        check::check(&self.shape, "/liquid/shape", dimensions, misfits);
+        let spacing = scene.points.spacing_m;
+        check::filled(&self.shape, "/liquid/shape", dimensions, spacing, misfits);
         if let Some(faces) = &self.faces {
             faces.check(scene, self, misfits);
         } else if scene.geometry != Geometry::Space {

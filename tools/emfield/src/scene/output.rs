@@ -111,7 +111,9 @@ impl Output {
         let often = self.every_s.into_iter().flat_map(|s| every(s, end));
         let all = typed.chain(often).map(Instant::whole).collect();
         let after = merged(all, end, artefact::one_time).into_iter().skip(1);
-        after.map(|instant| instant.time).collect()
+        let after: Vec<f64> = after.map(|instant| instant.time).collect();
+        // A march that is shorter than times of frames are apart still has an end.
+        if after.is_empty() { vec![end] } else { after }
     }
 }
 

@@ -149,3 +149,10 @@ fn peak_currents_are_root_mean_squares_too() {
     let currents: EddyCurrents = serde_json::from_str(text).unwrap();
     assert!((currents.rms(2.0) - 2.0).abs() < 1e-15);
 }
+
+#[test]
+fn a_march_shorter_than_stamps_of_time_has_its_end() {
+    let output = Output::default();
+    assert_eq!(output.instants(1e-14), [1e-14]);
+    assert_eq!(output.instants(2e-5), [2e-5]);
+}

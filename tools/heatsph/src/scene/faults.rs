@@ -3,7 +3,7 @@
 use run::Fault;
 use run::property::Property;
 
-use shapes::check::{Misfit, check, coordinates};
+use shapes::check::{Misfit, check, coordinates, filled};
 use torch::Waveform;
 
 use super::{Boundary, Scene, Time};
@@ -25,7 +25,8 @@ impl Scene {
     /// What is wrong with shapes and places.
     fn misfits(&self) -> impl Iterator<Item = Fault> {
         let mut faults = Vec::new();
-        check(&self.body, "/body", self.dimensions, &mut faults);
+        let spacing = self.points.spacing_m;
+        filled(&self.body, "/body", self.dimensions, spacing, &mut faults);
         for (number, material) in self.materials.iter().enumerate() {
             let at = format!("/materials/{number}/region");
             match &material.region {

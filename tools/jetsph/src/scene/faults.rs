@@ -2,7 +2,7 @@
 
 use run::Fault;
 use shapes::Shape;
-use shapes::check::{Misfit, check};
+use shapes::check::{Misfit, check, filled};
 
 use super::{Method, Scene, Solid};
 use crate::matter::solid::fracture::Criterion;
@@ -145,7 +145,7 @@ impl super::WaterScene {
         }
         for (k, body) in self.bodies.iter().enumerate() {
             let at = format!("/water/bodies/{k}/body");
-            check(&body.body, &at, dimensions, misfits);
+            filled(&body.body, &at, dimensions, self.spacing_m, misfits);
             let axes = body.velocity_m_s.as_ref().map(Vec::len);
             if let Some(length) = axes.filter(|length| *length != dimensions) {
                 let at = format!("/water/bodies/{k}/velocity_m_s");
@@ -278,7 +278,14 @@ impl Solid {
 
     fn faults(&self, at: &str, dimensions: usize, plane: Option<Plane>, faults: &mut Vec<Fault>) {
         let mut misfits = Vec::new();
-        check(&self.body, &format!("{at}/body"), dimensions, &mut misfits);
+        let body_at = format!("{at}/body");
+        filled(
+            &self.body,
+            &body_at,
+            dimensions,
+            self.spacing_m,
+            &mut misfits,
+        );
         for (k, load) in self.loads.iter().enumerate() {
             if load.traction_pa.is_some() == load.pressure_pa.is_some() {
                 let what = "wants either 'traction_pa' or 'pressure_pa'";

@@ -1,5 +1,6 @@
 //! What the schema of a shape cannot tell.
 
+use crate::body::Body;
 use crate::mesh;
 use crate::shape::{BoxShape, EllipsoidShape, Shape, Stl};
 
@@ -34,6 +35,40 @@ pub fn coordinates(numbers: &[f64], at: &str, dimensions: usize, faults: &mut Ve
     );
     faults.push(Misfit::at(at, what));
     false
+}
+
+/// Points begin at most so many of their distances from the origin: there coordinates are rounded by 2e-7 of that distance.
+const FARTHEST: f64 = 1e9;
+
+/// Whether points so far apart \[m\] can be told apart where they begin, between two coordinates \[m\]; says so where not.
+pub fn reach(ends: [f64; 2], at: &str, spacing: f64, faults: &mut Vec<Misfit>) -> bool {
+    let [low, high] = ends;
+    let nearest = if low > 0.0 { low } else { high.min(0.0) };
+    let most = FARTHEST * spacing;
+    // What is not finite is told elsewhere.
+    if !nearest.is_finite() || nearest.abs() <= most {
+        return true;
+    }
+    let what = format!(
+        "begins {nearest:.3e} m from the origin; points {spacing:.3e} m apart are told apart up to {most:.3e} m: move the scene to the origin"
+    );
+    faults.push(Misfit::at(at, what));
+    false
+}
+
+/// [`check`] for a shape that holds points so far apart \[m\].
+pub fn filled(shape: &Shape, at: &str, dimensions: usize, spacing: f64, faults: &mut Vec<Misfit>) {
+    let before = faults.len();
+    check(shape, at, dimensions, faults);
+    if faults.len() > before {
+        return;
+    }
+    let [low, high] = Body::new(shape, dimensions).bounds();
+    for k in 0..dimensions {
+        if !reach([low[k], high[k]], at, spacing, faults) {
+            break;
+        }
+    }
 }
 
 /// Finds what the types of a scene cannot tell: numbers of coordinates, corners, shapes of the other kind of scene.
