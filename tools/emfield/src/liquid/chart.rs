@@ -23,6 +23,12 @@ pub(super) fn exponents(variables: usize) -> Vec<[i32; 2]> {
     all
 }
 
+/// Powers of a number up to that of the degree.
+fn powers(x: f64) -> [f64; DEGREE as usize + 1] {
+    let square = x * x;
+    [1.0, x, square, x * square, square * square]
+}
+
 /// Points of a fit and the radius that holds them.
 pub(super) struct Near {
     pub(super) points: Vec<u32>,
@@ -72,8 +78,9 @@ impl Chart {
             heights[m] = (bow * dot(&d, &d) + 2.0 * z) / (1.0 + far);
             let (x, y) = (x * scale / far, y * scale / far);
             share[m] = wls::quartic(length(&d) * scale).max(1e-12);
+            let (x, y) = (powers(x), powers(y));
             for (k, e) in exponents.iter().enumerate() {
-                basis[(k, m)] = x.powi(e[0]) * y.powi(e[1]);
+                basis[(k, m)] = x[e[0] as usize] * y[e[1] as usize];
             }
         }
         let mut weighted = basis.clone();

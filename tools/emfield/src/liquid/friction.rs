@@ -12,14 +12,18 @@
 //! the pressure. The balance along the outward normal is `-p + 2 mu du_n/dn = -p_gas - gamma kappa`, so that it **raises** p
 //! where the liquid is drawn outward.
 
-use krylov::{Keep, Method, Options, Rows, Rule, Solved, System};
+use krylov::{Method, Options, Rows, Rule, Solved, System};
 use wls::Stencils;
 
 use super::matter::Way;
 use super::operators::sloped;
+use super::pressure::served;
 use super::room::images::Images;
 use super::surface::Patch;
 use super::vector::{along, dot};
+
+/// Share of the largest entry beside the diagonal of a row below which factors know nothing of an entry.
+const LARGE: f64 = 0.1;
 
 /// Why there are no equations.
 #[derive(Debug, thiserror::Error)]
@@ -55,7 +59,8 @@ pub struct Friction {
 }
 
 impl Friction {
-    /// Makes them; `points` have their images behind them, and `diffusion` is `tau nu` \[m2\].
+    /// Makes them; `points` have their images behind them, and `diffusion` is `tau nu` \[m2\]. Factors of equations nearby
+    /// serve where they are given.
     ///
     /// # Errors
     /// Where fits or equations cannot be made.
@@ -64,6 +69,7 @@ impl Friction {
         ground: Ground<'_, D>,
         way: &Way,
         diffusion: f64,
+        nearby: Option<System<f64, f64>>,
     ) -> Result<Self, Error> {
         let Ground {
             inside,
@@ -101,16 +107,21 @@ impl Friction {
                 }
             }
         });
-        // Diffusion within a stage reaches a few spacings at most: factors with the entries of the rows serve.
+        // Diffusion within a stage reaches a few spacings at most.
         let options = Options {
-            method: Method::Incomplete(Keep::PATTERN),
+            method: Method::IncompleteOfLarge(LARGE),
             ..Options::default()
         };
-        let system = System::new(matrix, Vec::new(), options)?;
+        let system = served(matrix, options, nearby)?;
         let slopes = (0..patches.len())
             .map(|i| diffusion * surface.laplacian(i).conditions().sum::<f64>())
             .collect();
         Ok(Self { system, slopes })
+    }
+
+    /// The system with its factors.
+    pub fn into_system(self) -> System<f64, f64> {
+        self.system
     }
 
     /// Adds to velocities before friction what slopes `drag` along the normal, of points of the surface, bring \[1/s\].

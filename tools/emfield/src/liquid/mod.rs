@@ -4,6 +4,7 @@
 
 pub mod air;
 pub mod balance;
+pub mod borne;
 mod cell;
 mod chart;
 pub mod drift;

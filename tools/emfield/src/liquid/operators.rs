@@ -53,19 +53,46 @@ pub fn derivatives<const D: usize>(
     way: &Way,
     fits: Fits,
 ) -> Result<Stencils<D>, Error> {
-    let metrics = vec![Metric::round(way.spacing); points.all.len()];
-    let search = Search::new(Cloud {
-        points: points.all,
-        metrics: &metrics,
-    })?;
     let wants = Wants {
         value: fits.value,
         gradient: true,
         laplacian: true,
         ..Wants::default()
     };
+    made(points, way, fits.through, wants)
+}
+
+/// Fits of all derivatives at all points, through their own values, which points that go with the liquid take with them.
+///
+/// # Errors
+/// As [`operators`].
+pub fn bearing<const D: usize>(points: &[[f64; D]], way: &Way) -> Result<Stencils<D>, Error> {
+    let wants = Wants {
+        value: false,
+        gradient: true,
+        hessian: true,
+        laplacian: true,
+    };
+    let points = Points {
+        all: points,
+        own: points.len(),
+    };
+    made(points, way, true, wants)
+}
+
+fn made<const D: usize>(
+    points: Points<'_, D>,
+    way: &Way,
+    through: bool,
+    wants: Wants,
+) -> Result<Stencils<D>, Error> {
+    let metrics = vec![Metric::round(way.spacing); points.all.len()];
+    let search = Search::new(Cloud {
+        points: points.all,
+        metrics: &metrics,
+    })?;
     let plan = Plan {
-        interpolating: fits.through,
+        interpolating: through,
         ..Plan::new::<D>(way.order, wants)
     };
     Stencils::build(&search, &plan, &First(points.own))

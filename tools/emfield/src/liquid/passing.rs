@@ -85,6 +85,7 @@ mod tests {
             charge: Vec::new(),
             force: [Vec::new(), Vec::new()],
             room: Room::default(),
+            borne: None,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::borne::Borne;
 use super::operators::Fits;
 use super::room::Room;
 use super::vector::along;
@@ -35,6 +36,8 @@ pub struct Liquid<const D: usize> {
     pub force: [Vec<[f64; D]>; 2],
     /// Faces that bound it beside the surface.
     pub room: Room<D>,
+    /// Fits that its points take with them; nothing where drops meet and part, whose points crowd in necks.
+    pub borne: Option<Borne<D>>,
 }
 
 impl<const D: usize> Liquid<D> {

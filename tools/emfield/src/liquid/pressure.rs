@@ -70,6 +70,24 @@ fn options() -> Options {
     }
 }
 
+/// A system of these rows, with the factors of one nearby where it is given.
+///
+/// # Errors
+/// Where rows cannot be solved.
+pub(super) fn served(
+    rows: Rows<f64>,
+    options: Options,
+    nearby: Option<System<f64, f64>>,
+) -> Result<System<f64, f64>, krylov::Error> {
+    match nearby {
+        Some(mut system) if system.len() == rows.len() => {
+            system.renew(rows)?;
+            Ok(system)
+        }
+        _ => System::new(rows, Vec::new(), options),
+    }
+}
+
 /// The equations of the pressure of a stage.
 pub struct Equations<'a, const D: usize> {
     conditions: Conditions<'a, D>,
@@ -101,6 +119,18 @@ impl<'a, const D: usize> Equations<'a, D> {
     /// # Errors
     /// Where the equations have no solution.
     pub fn new(conditions: Conditions<'a, D>, n: usize) -> Result<Self, krylov::Error> {
+        Self::served(conditions, n, None)
+    }
+
+    /// The same with the factors of equations nearby, where they are given.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn served(
+        conditions: Conditions<'a, D>,
+        n: usize,
+        nearby: Option<System<f64, f64>>,
+    ) -> Result<Self, krylov::Error> {
         let Conditions {
             rows,
             patches,
@@ -143,7 +173,7 @@ impl<'a, const D: usize> Equations<'a, D> {
                 row.extend(all.map(|(j, w)| (at(j), -square * w)));
             }
         });
-        let system = System::new(matrix, Vec::new(), options())?;
+        let system = served(matrix, options(), nearby)?;
         let mut made = Self {
             conditions,
             system,
@@ -153,6 +183,11 @@ impl<'a, const D: usize> Equations<'a, D> {
             made.loosen(n);
         }
         Ok(made)
+    }
+
+    /// The system with its factors.
+    pub fn into_system(self) -> System<f64, f64> {
+        self.system
     }
 
     /// Finds what an even source does.

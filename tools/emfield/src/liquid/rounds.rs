@@ -1,6 +1,6 @@
 //! Pressure and friction of a stage in turn.
 
-use krylov::Anderson;
+use krylov::{Anderson, System};
 use rayon::prelude::*;
 use run::Failure;
 use wls::Stencils;
@@ -33,6 +33,14 @@ pub(super) struct Rounds<'a, const D: usize> {
     pub(super) way: &'a Way,
 }
 
+/// Factors of the pressure and of friction: those of the first stage of a step serve the second where rows are near, as they are
+/// where points take their fits with them ([`super::borne`]).
+#[derive(Default)]
+pub(super) struct Factors {
+    pressure: Option<System<f64, f64>>,
+    friction: Option<System<f64, f64>>,
+}
+
 /// Equations of the pressure and of friction.
 struct Pair<'a, 'b, const D: usize> {
     equations: &'a mut Equations<'b, D>,
@@ -47,8 +55,9 @@ impl<const D: usize> Liquid<D> {
         free: &[[f64; D]],
         right: &[f64],
         guess: Vec<[f64; D]>,
-        effort: &mut Effort,
+        work: (&mut Factors, &mut Effort),
     ) -> Result<(), Failure> {
+        let (factors, effort) = work;
         let (matter, tau) = (rounds.matter, rounds.tau);
         let held = self.room.held.clone();
         let conditions = Conditions {
@@ -60,11 +69,13 @@ impl<const D: usize> Liquid<D> {
             held: &held,
             fall: self.room.borne(&matter.gravity).map(|g| g * tau * tau),
         };
-        let equations = Equations::new(conditions, rounds.images.own());
+        let nearby = factors.pressure.take();
+        let equations = Equations::served(conditions, rounds.images.own(), nearby);
         let mut equations = equations.map_err(|e| failed(&e))?;
         let Some(viscosity) = matter.viscosity else {
             effort.add(&equations.solve(right, &mut self.pressure, rounds.way.rule()))?;
             self.velocity = rounds.pushed(free, &self.pressure);
+            factors.pressure = Some(equations.into_system());
             return Ok(());
         };
         let ground = Ground {
@@ -75,14 +86,18 @@ impl<const D: usize> Liquid<D> {
             through: self.fits(false).through,
         };
         let diffusion = tau * viscosity / matter.density;
-        let friction = Friction::new(rounds.place, ground, rounds.way, diffusion);
+        let nearby = factors.friction.take();
+        let friction = Friction::new(rounds.place, ground, rounds.way, diffusion, nearby);
         let mut friction = friction.map_err(|e| failed(&e))?;
         self.velocity = guess;
         let mut pair = Pair {
             equations: &mut equations,
             friction: &mut friction,
         };
-        self.rub(rounds, &mut pair, free, right, effort)
+        self.rub(rounds, &mut pair, free, right, effort)?;
+        factors.pressure = Some(equations.into_system());
+        factors.friction = Some(friction.into_system());
+        Ok(())
     }
 
     /// Pressure and friction in turn, until the normal stress of friction on the surface, and on walls what it adds to the slope

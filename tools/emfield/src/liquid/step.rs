@@ -25,7 +25,7 @@ use super::friction::stretch;
 use super::operators::{Points, derivatives, divergence, stretching, values};
 use super::pressure::{Conditions, Equations, bending};
 use super::room::images::Images;
-use super::rounds::Rounds;
+use super::rounds::{Factors, Rounds};
 use super::surface::{Bare, Patch, Sheet, beside};
 use super::vector::{along, difference, dot};
 
@@ -107,7 +107,8 @@ impl<const D: usize> Liquid<D> {
             pull: self.pulled(tau),
             pushed: self.pushed(matter, tau),
         };
-        let first = self.stage(matter, way, &base, effort)?;
+        let mut factors = Factors::default();
+        let first = self.stage(matter, way, &base, (&mut factors, &mut *effort))?;
         // The rates of the first stage act for what is left of the step.
         let rest = dt - tau;
         let base = Base {
@@ -118,7 +119,10 @@ impl<const D: usize> Liquid<D> {
             pushed: self.pushed(matter, dt),
         };
         drop(first);
-        self.stage(matter, way, &base, effort)
+        if self.borne.is_none() {
+            factors = Factors::default();
+        }
+        self.stage(matter, way, &base, (&mut factors, effort))
     }
 
     /// The pressure of the liquid as it is, and the rates that go with it; gives its surface.
@@ -183,8 +187,9 @@ impl<const D: usize> Liquid<D> {
         matter: &Matter<D>,
         way: &Way,
         base: &Base<D>,
-        effort: &mut Effort,
+        work: (&mut Factors, &mut Effort),
     ) -> Result<Ended<D>, Failure> {
+        let (factors, effort) = work;
         let (n, surface, tau) = (base.position.len(), self.surface(), base.tau);
         let guess = stepped(&base.velocity, tau, &self.rate);
         let goes = self.moved(&guess);
@@ -192,7 +197,8 @@ impl<const D: usize> Liquid<D> {
         let follows = !self.follow.is_empty();
         let (all, images) = self.room.images(&place, way.spacing);
         let points = Points { all: &all, own: n };
-        let rows = derivatives(points, way, self.fits(follows)).map_err(|e| failed(&e))?;
+        let rows = self.derivatives(points, way, self.fits(follows));
+        let rows = rows.map_err(|e| failed(&e))?;
         // Fits through their own points smooth nothing.
         let apart = follows && self.room.bounds();
         let fits = apart.then(|| values(points, way)).transpose();
@@ -224,7 +230,7 @@ impl<const D: usize> Liquid<D> {
             tau,
             way,
         };
-        self.push(&rounds, &free, &right, guess, effort)?;
+        self.push(&rounds, &free, &right, guess, (factors, &mut *effort))?;
         self.rate = (0..n)
             .map(|i| difference(&self.velocity[i], &base.velocity[i]).map(|d| d / tau))
             .collect();

@@ -164,6 +164,22 @@ impl Conductors {
         of: impl Fn(usize) -> &'a Sides<D> + Sync,
         unknown: Unknown,
     ) -> Rows<f64> {
+        let inside = |i: usize, row: &mut Vec<(u32, f64)>| {
+            let plain = of(i).own.laplacian(i).iter();
+            row.extend(plain.map(|(j, w)| (j as u32, w)));
+        };
+        self.rows_with(region, &of, inside, unknown)
+    }
+
+    /// The same of stencils whose Laplacians inside media are given by a function of their own.
+    #[must_use]
+    pub fn rows_with<'a, const D: usize>(
+        &self,
+        region: &Region<D>,
+        of: impl Fn(usize) -> &'a Sides<D> + Sync,
+        inside: impl Fn(usize, &mut Vec<(u32, f64)>) + Sync,
+        unknown: Unknown,
+    ) -> Rows<f64> {
         Rows::gathered(region.len(), 0.0, |i, row| {
             let sides = of(i);
             let mut push = |j: usize, w: f64| row.push((j as u32, w));
@@ -191,10 +207,10 @@ impl Conductors {
                     along_normal(&sides.outer, i, face.normal, -outer, &mut push);
                 }
                 _ => {
-                    let plain = sides.own.laplacian(i);
-                    plain.iter().for_each(|(j, w)| push(j, w));
+                    inside(i, row);
                     if unknown == Unknown::Around {
-                        around(region, &sides.own, i, unknown.around(), &mut push);
+                        let push = |j: usize, w: f64| row.push((j as u32, w));
+                        around(region, &sides.own, i, unknown.around(), push);
                     }
                 }
             }

@@ -189,6 +189,31 @@ impl<const D: usize> Sides<D> {
         })
     }
 
+    /// Slopes and second derivatives inside media and on walls of some points: fits that points take with them when they move
+    /// ([`wls::Moved`]). Not for forms that compare harmonic polynomials.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn bearing(
+        region: &Region<D>,
+        form: &Form,
+        wanted: &(dyn Fn(usize) -> bool + Sync),
+    ) -> Result<Stencils<D>, Error> {
+        let mirror = Mirror::new(region);
+        let search = Search::new(mirror.cloud())?;
+        let all = Wants {
+            gradient: true,
+            hessian: true,
+            laplacian: true,
+            ..Wants::default()
+        };
+        let rules = Part {
+            rules: Own(region),
+            wanted,
+        };
+        mirror.stencils(&search, &form.plan::<D>(all), &rules)
+    }
+
     /// What became of the rows of all of them.
     #[must_use]
     pub fn report(&self) -> Report {

@@ -42,6 +42,10 @@ where
         let real = |keep| Self::Real(Incomplete::new(rows, shift, order, keep));
         Ok(match options.method {
             Method::Incomplete(keep) => real(keep),
+            Method::IncompleteOfLarge(least) => {
+                let large = rows.thinned(least, false);
+                Self::Real(Incomplete::new(&large, shift, order, Keep::PATTERN))
+            }
             Method::IncompleteComplex(keep) => {
                 Self::Complex(Incomplete::new(rows, shift, order, keep))
             }

@@ -22,6 +22,9 @@ pub enum Method {
     Direct,
     /// BiCGStab(2) and incomplete factors of real coefficients in single precision.
     Incomplete(Keep),
+    /// The same with factors of those entries alone that are not below this share of the largest beside the diagonal of their
+    /// row; the others are added to the diagonal. Wide rows have many small entries.
+    IncompleteOfLarge(f64),
     /// The same with complex factors, where the diagonal is complex and large.
     IncompleteComplex(Keep),
 }

@@ -126,4 +126,35 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn fits_that_points_take_with_them_give_the_field_of_fits_made_anew() {
+        let scene = scene(1.1);
+        let part = scene.liquid.as_ref().unwrap();
+        let liquid = start(part, filled(&scene, part).unwrap()).unwrap();
+        let skin = Place::of(&liquid.position, &liquid.normal, 5e-4).skin;
+        let about = outline(skin, liquid.middle()).unwrap();
+        let (way, mut effort) = (way(&scene, part), Effort::default());
+        let totals = [true, false].map(|carries| {
+            let given = part.magnetic.as_ref().unwrap();
+            let mut magnetic = alternating(&scene, given, &liquid).unwrap();
+            let stood = magnetic.stand(&about, about.origin);
+            let fitted = if carries {
+                magnetic.fit(&stood)
+            } else {
+                magnetic.fit_anew(&stood)
+            };
+            let fitted = fitted.unwrap();
+            assert_eq!(fitted.carries() > 1000, carries, "{}", fitted.carries());
+            let place = Place::of(&liquid.position, &liquid.normal, 5e-4);
+            let act = magnetic.act(&stood, &fitted, place, way.rule(), &mut effort);
+            act.unwrap();
+            magnetic.totals
+        });
+        let apart = |of: fn(&crate::magnetic::totals::Totals) -> f64| {
+            (of(&totals[0]) / of(&totals[1]) - 1.0).abs()
+        };
+        assert!(apart(|t| t.force_coil[2]) < 1e-3);
+        assert!(apart(|t| t.heat_volume) < 5e-3);
+    }
 }

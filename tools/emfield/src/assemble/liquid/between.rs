@@ -80,6 +80,7 @@ pub(crate) fn start<const D: usize>(
         rate: vec![[0.0; D]; n],
         normal: filled.normal,
         room,
+        borne: None,
     })
 }
 

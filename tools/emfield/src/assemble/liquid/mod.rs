@@ -15,6 +15,7 @@ use self::alternating::alternating;
 use self::matter::{PASSED, RIPPLE, few, lacks, matter, way};
 use crate::geometry::Geometry;
 use crate::liquid::air::Place;
+use crate::liquid::borne::Borne;
 use crate::liquid::effort::Effort;
 use crate::liquid::electric::Electric;
 use crate::liquid::fill::{Filled, fill};
@@ -82,6 +83,7 @@ pub(crate) fn start(part: &Part, filled: Filled<3>) -> Result<Liquid<3>, Failure
         rate: vec![[0.0; 3]; n],
         normal: filled.normal,
         room: Room::default(),
+        borne: part.groups.is_none().then(Borne::default),
     })
 }
 

@@ -332,6 +332,7 @@ fn beside(a: &Liquid<3>, b: &Liquid<3>) -> Liquid<3> {
         pull: std::array::from_fn(|k| [a.pull[k].as_slice(), &b.pull[k]].concat()),
         drag: [a.drag.as_slice(), &b.drag].concat(),
         charge: [a.charge.as_slice(), &b.charge].concat(),
+        borne: None,
         ..a.clone()
     }
 }
@@ -361,6 +362,7 @@ pub fn chosen(liquid: &Liquid<3>, on: Vec<usize>, inside: Vec<usize>) -> Liquid<
             .filter_map(|&i| liquid.drag.get(i).copied())
             .collect(),
         charge: told(&liquid.charge),
+        borne: None,
         ..liquid.clone()
     }
 }

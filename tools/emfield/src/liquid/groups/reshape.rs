@@ -82,6 +82,7 @@ pub(super) fn reshaped<H: Fn(&[f64; 3]) -> f64>(
         stress: vec![0.0; skin.len()],
         normal: skin.iter().map(|s| s.normal).collect(),
         position: skin.iter().map(|s| s.place).chain(inner).collect(),
+        borne: None,
         ..old.clone()
     }))
 }

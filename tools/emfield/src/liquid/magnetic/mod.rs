@@ -6,6 +6,7 @@
 //! (see [`mould`]). Charges that a current through the surface would bring are left out: `out` says how large it is.
 
 mod carried;
+mod fitted;
 pub mod mould;
 mod state;
 
@@ -15,6 +16,7 @@ use run::Failure;
 
 pub use carried::Act;
 use carried::Flux;
+pub use fitted::Fitted;
 use mould::within;
 pub use mould::{Ball, Mould};
 use state::State;
@@ -24,7 +26,7 @@ use super::effort::{Effort, failed};
 use super::outline::Outline;
 use super::surface::tangents;
 use super::vector::{along, difference, direction, length};
-use crate::magnetic::diffusion::{Conductors, shift};
+use crate::magnetic::diffusion::Conductors;
 use crate::magnetic::driven::right::Drive;
 use crate::magnetic::fields::{Fields, Media, Solution, steady_change};
 use crate::magnetic::medium::interface::Acting;
@@ -151,9 +153,8 @@ impl Magnetic {
     ///
     /// # Errors
     /// Where fits cannot be made.
-    pub fn fit(&self, stood: &Stood) -> Result<Sides<3>, Failure> {
-        let moves = |i: usize| !self.ball.stays(i);
-        Sides::some(&stood.region, &self.form, &moves).map_err(|e| failed(&e))
+    pub fn fit(&self, stood: &Stood) -> Result<Fitted, Failure> {
+        Fitted::new(&self.ball, &stood.region, &self.form).map_err(|e| failed(&e))
     }
 
     /// What acts on the liquid.
@@ -163,11 +164,12 @@ impl Magnetic {
     pub fn act(
         &mut self,
         stood: &Stood,
-        sides: &Sides<3>,
+        fitted: &Fitted,
         place: Place<'_>,
         how: Rule<'_>,
         effort: &mut Effort,
     ) -> Result<Act, Failure> {
+        let sides = &fitted.sides;
         let Stood {
             region,
             weights,
@@ -187,10 +189,11 @@ impl Magnetic {
             held: [C::default(); 3],
         };
         if self.state.worn || self.system.is_none() {
-            self.system = Some(self.made(region, sides)?);
+            self.system = Some(self.made(region, fitted)?);
             self.state.begin(place, *sought, region.len());
         } else if let Some(system) = &mut self.system {
-            let (rows, shift) = rows(&self.conductors, &self.ball, region, sides, drive.omega);
+            let omega = drive.omega;
+            let (rows, shift) = fitted.rows(&self.conductors, &self.ball, region, omega);
             system.renew_shifted(rows, &shift).map_err(|e| failed(&e))?;
         }
         self.solve(stood, sides, &drive, how, effort)?;
@@ -257,14 +260,9 @@ impl Magnetic {
     }
 
     /// The equations with factors of their own.
-    fn made(&self, region: &Region<3>, sides: &Sides<3>) -> Result<System<f64, C>, Failure> {
-        let (rows, shift) = rows(
-            &self.conductors,
-            &self.ball,
-            region,
-            sides,
-            self.applied.omega,
-        );
+    fn made(&self, region: &Region<3>, fitted: &Fitted) -> Result<System<f64, C>, Failure> {
+        let omega = self.applied.omega;
+        let (rows, shift) = fitted.rows(&self.conductors, &self.ball, region, omega);
         let options = Options {
             method: Method::Multigrid(Grids::default()),
             ..Options::default()
@@ -346,20 +344,6 @@ pub fn not_round() -> Failure {
     )
 }
 
-/// Rows and what rates add to them.
-fn rows(
-    conductors: &Conductors,
-    ball: &Ball,
-    region: &Region<3>,
-    sides: &Sides<3>,
-    omega: f64,
-) -> (krylov::Rows<f64>, Vec<C>) {
-    let of = |i: usize| if ball.stays(i) { ball.still() } else { sides };
-    let rows = conductors.rows_of(region, of, Unknown::Potential);
-    let rates = conductors.rates(region, sides, Unknown::Potential);
-    (rows, shift(&rates, omega))
-}
-
 /// Greatest current through the surface over the greatest along it.
 fn through(region: &Region<3>, fields: &Fields) -> f64 {
     let (mut out, mut whole) = (0.0_f64, 0.0_f64);
@@ -370,6 +354,14 @@ fn through(region: &Region<3>, fields: &Fields) -> f64 {
         whole = whole.max(e.iter().map(C::norm_sqr).sum::<f64>().sqrt());
     }
     if whole > 0.0 { out / whole } else { 0.0 }
+}
+
+#[cfg(test)]
+impl Magnetic {
+    /// Fits of which all are made anew.
+    pub(crate) fn fit_anew(&self, stood: &Stood) -> Result<Fitted, Failure> {
+        Fitted::within(&self.ball, &stood.region, &self.form, -1.0).map_err(|e| failed(&e))
+    }
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@
 //! whole moves with the centre of the drop. What harmonics leave of the outline is not followed.
 
 use rayon::prelude::*;
+use wls::Stencils;
 
 use crate::liquid::outline::Outline;
 use crate::liquid::vector::{along, difference, direction, dot, length};
@@ -35,6 +36,8 @@ pub struct Ball {
     pub radius: f64,
     /// Points whose rows stay, and the fits of these.
     still: (Vec<bool>, Sides<3>),
+    /// Fits that points inside media take with them when they move.
+    bears: Stencils<3>,
 }
 
 impl Ball {
@@ -56,12 +59,15 @@ impl Ball {
         };
         let stays: Vec<bool> = (0..region.len()).map(stays).collect();
         let sides = Sides::some(&region, form, &|i| stays[i])?;
+        let moves = |i: usize| matches!(region.kinds[i], Kind::Inside(_)) && !stays[i];
+        let bears = Sides::bearing(&region, form, &moves)?;
         Ok(Self {
             region,
             weights,
             centre,
             radius,
             still: (stays, sides),
+            bears,
         })
     }
 
@@ -69,6 +75,12 @@ impl Ball {
     #[must_use]
     pub fn stays(&self, i: usize) -> bool {
         self.still.0[i]
+    }
+
+    /// Fits that points inside media take with them when they move.
+    #[must_use]
+    pub fn bears(&self) -> &Stencils<3> {
+        &self.bears
     }
 
     /// Fits of the rows that stay.
@@ -156,7 +168,8 @@ impl Mould<'_> {
 fn faded(q: f64) -> (f64, f64) {
     let t = ((q - 1.0) / (FAR - 1.0)).clamp(0.0, 1.0);
     let back = 1.0 - t;
-    (back * back * (1.0 + 2.0 * t), -6.0 * t * back / (FAR - 1.0))
+    let value = back.powi(3) * (1.0 + 3.0 * t + 6.0 * t * t);
+    (value, -30.0 * (t * back).powi(2) / (FAR - 1.0))
 }
 
 /// Points of the ball's medium: on its surface, and inside.

@@ -90,8 +90,8 @@ impl Magnetic {
         };
         if let Some(centre) = centre.first() {
             let stood = self.stand(&outline(skin, *centre)?, *centre);
-            let sides = self.fit(&stood)?;
-            self.system = Some(self.made(&stood.region, &sides)?);
+            let fitted = self.fit(&stood)?;
+            self.system = Some(self.made(&stood.region, &fitted)?);
         }
         Ok(())
     }

@@ -249,6 +249,9 @@ impl<const D: usize> Liquid<D> {
         let normals = change.skin.iter().map(|s| s.normal);
         self.normal = rebuilt(&self.normal, skin, surface, normals, empty());
         self.position = position;
+        if let Some(borne) = &mut self.borne {
+            borne.clear();
+        }
         Ok(())
     }
 

@@ -123,7 +123,7 @@ impl Acting {
         let Step { way, dt: passed } = step;
         let mut place = Place::of(&liquid.position, &liquid.normal, way.spacing);
         place.of = &self.of;
-        let rule = way.rule();
+        let rule = way.of_fields();
         let (traction, force, impulse) = if let Some(electric) = &mut self.electric {
             let stood = session.timed("points of the field", || electric.stand(place))?;
             let sides = session.timed("weights of the field", || electric.fit(&stood))?;

@@ -4,6 +4,7 @@ use artefact::Checkpoint;
 use run::Session;
 use steps::Legs;
 
+use crate::liquid::borne::Borne;
 use crate::liquid::effort::Effort;
 use crate::liquid::renew::Renewed;
 use crate::liquid::step::Liquid;
@@ -49,6 +50,9 @@ impl Course {
         ] {
             checkpoint.put_f64(name, vectors.as_flattened());
         }
+        if let Some(borne) = &liquid.borne {
+            borne.save(checkpoint);
+        }
         checkpoint.put_f64("pressure", &liquid.pressure);
         checkpoint.put_f64("stress", &liquid.stress);
         let kept = self
@@ -85,6 +89,9 @@ impl Course {
             ("follow", &mut liquid.follow),
         ] {
             *vectors = checkpoint.f64(name)?.as_chunks::<D>().0.to_vec();
+        }
+        if let Some(borne) = &mut liquid.borne {
+            *borne = Borne::restore(checkpoint)?;
         }
         liquid.pressure = checkpoint.f64("pressure")?;
         liquid.stress = checkpoint.f64("stress")?;

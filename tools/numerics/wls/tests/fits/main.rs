@@ -13,6 +13,7 @@ mod exact;
 mod folded;
 mod invariant;
 mod linear;
+mod moved;
 mod orders;
 mod positive;
 mod room;
