@@ -10,8 +10,7 @@ use rayon::prelude::*;
 use wls::{Error, Moved, Stencils};
 
 use super::matter::Way;
-use super::operators::{Fits, Points, bearing, derivatives};
-use super::points::Liquid;
+use super::operators::bearing;
 
 /// Most strain, and most that neighbours stray over the distance of those that are near.
 const STRAIN: f64 = 0.05;
@@ -41,7 +40,10 @@ impl<const D: usize> Borne<D> {
     }
 
     /// Rows of derivatives at points that are now here.
-    fn rows(&mut self, points: &[[f64; D]], way: &Way) -> Result<Stencils<D>, Error> {
+    ///
+    /// # Errors
+    /// Where fits cannot be made.
+    pub fn rows(&mut self, points: &[[f64; D]], way: &Way) -> Result<Stencils<D>, Error> {
         if self.place.len() == points.len() {
             let fits = match self.fits.take() {
                 Some(fits) => fits,
@@ -84,22 +86,5 @@ impl<const D: usize> Borne<D> {
             place: place.as_chunks::<D>().0.to_vec(),
             fits: None,
         })
-    }
-}
-
-impl<const D: usize> Liquid<D> {
-    /// Rows of derivatives at points with their images behind them. Only points that go with the liquid take their fits with
-    /// them: those that a stream passes have values of fits too, which are not carried.
-    pub(super) fn derivatives(
-        &mut self,
-        points: Points<'_, D>,
-        way: &Way,
-        like: Fits,
-    ) -> Result<Stencils<D>, Error> {
-        let loose = self.loose();
-        match self.borne.as_mut().filter(|_| loose) {
-            Some(borne) => borne.rows(points.all, way),
-            None => derivatives(points, way, like),
-        }
     }
 }

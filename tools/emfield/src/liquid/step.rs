@@ -22,7 +22,7 @@ use wls::Stencils;
 use super::drift::{self, Fitted};
 use super::effort::{Effort, failed};
 use super::friction::stretch;
-use super::operators::{Points, derivatives, divergence, stretching, values};
+use super::operators::{Fits, Points, derivatives, divergence, stretching, values};
 use super::pressure::{Conditions, Equations, bending};
 use super::room::images::Images;
 use super::rounds::{Factors, Rounds};
@@ -246,6 +246,21 @@ impl<const D: usize> Liquid<D> {
             rows,
             images,
         })
+    }
+
+    /// Rows of derivatives at points with their images behind them. Only points that go with the liquid take their fits with
+    /// them: those that a stream passes have values of fits too, which are not carried.
+    fn derivatives(
+        &mut self,
+        points: Points<'_, D>,
+        way: &Way,
+        like: Fits,
+    ) -> Result<Stencils<D>, wls::Error> {
+        let loose = self.loose();
+        match self.borne.as_mut().filter(|_| loose) {
+            Some(borne) => borne.rows(points.all, way),
+            None => derivatives(points, way, like),
+        }
     }
 
     /// The surface as it is.
