@@ -80,10 +80,11 @@ impl Points {
             1 => Kind::Interface,
             _ => Kind::Wall,
         };
-        let (meetings, surface) = meetings(reader)?;
+        let position = frame.position_vectors()?;
+        let (meetings, surface) = meetings(reader, position.len())?;
         Ok(Some(Self {
             time: frame.time_s,
-            position: frame.position_vectors()?,
+            position,
             spacing: frame.f64("spacing")?,
             kind: frame.u8("kind")?.iter().map(kind).collect(),
             medium: frame.u8("medium")?.to_vec(),
@@ -95,12 +96,21 @@ impl Points {
     }
 }
 
-fn meetings(reader: &Reader) -> artefact::Result<(Vec<Meeting>, Columns)> {
+/// Where media meet, of so many points.
+fn meetings(reader: &Reader, count: usize) -> artefact::Result<(Vec<Meeting>, Columns)> {
     let Some(index) = reader.count(SURFACE).checked_sub(1) else {
         return Ok((Vec::new(), Columns::default()));
     };
     let frame = reader.frame(SURFACE, index)?;
     let points = frame.u32("point")?;
+    if let Some(what) = unknown(points, count) {
+        return Err(artefact::Error::Message {
+            path: reader.path().to_path_buf(),
+            channel: SURFACE.to_owned(),
+            index,
+            what,
+        });
+    }
     let (inner, outer) = (frame.u8("inner")?, frame.u8("outer")?);
     let normals = frame.vectors("normal")?;
     let one = |n: usize| Meeting {
@@ -110,6 +120,14 @@ fn meetings(reader: &Reader) -> artefact::Result<(Vec<Meeting>, Columns)> {
     };
     let all = (0..points.len()).map(one).collect();
     Ok((all, Columns::of_frame(&frame)))
+}
+
+/// What is wrong with numbers of points, of which there are so many.
+fn unknown(points: &[u32], count: usize) -> Option<String> {
+    let beyond = points.iter().find(|point| **point as usize >= count)?;
+    Some(format!(
+        "point {beyond} is none of the {count} of '{POINTS}'"
+    ))
 }
 
 /// Fields along the lines of a run at its end, by name in the order of the scene.
@@ -126,4 +144,16 @@ pub(crate) fn lines(reader: &Reader, scene: &Scene) -> artefact::Result<Vec<(Str
         }
     }
     Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_surface_names_points_that_there_are() {
+        assert_eq!(unknown(&[0, 600], 601), None);
+        let told = unknown(&[3, 65307], 601).unwrap();
+        assert!(told.contains("65307") && told.contains("601"), "{told}");
+    }
 }
