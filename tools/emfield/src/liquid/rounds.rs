@@ -48,16 +48,15 @@ struct Pair<'a, 'b, const D: usize> {
 }
 
 impl<const D: usize> Liquid<D> {
-    /// What pressure and friction do to velocities `free` of both; `guess` is what comes of it, about.
+    /// What pressure and friction do to velocities `free` of both; the velocity is what comes of it, about.
     pub(super) fn push(
         &mut self,
         rounds: &Rounds<'_, D>,
         free: &[[f64; D]],
         right: &[f64],
-        guess: Vec<[f64; D]>,
-        work: (&mut Factors, &mut Effort),
+        factors: &mut Factors,
+        effort: &mut Effort,
     ) -> Result<(), Failure> {
-        let (factors, effort) = work;
         let (matter, tau) = (rounds.matter, rounds.tau);
         let held = self.room.held.clone();
         let conditions = Conditions {
@@ -89,7 +88,6 @@ impl<const D: usize> Liquid<D> {
         let nearby = factors.friction.take();
         let friction = Friction::new(rounds.place, ground, rounds.way, diffusion, nearby);
         let mut friction = friction.map_err(|e| failed(&e))?;
-        self.velocity = guess;
         let mut pair = Pair {
             equations: &mut equations,
             friction: &mut friction,

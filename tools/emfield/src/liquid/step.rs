@@ -108,7 +108,7 @@ impl<const D: usize> Liquid<D> {
             pushed: self.pushed(matter, tau),
         };
         let mut factors = Factors::default();
-        let first = self.stage(matter, way, &base, (&mut factors, &mut *effort))?;
+        let first = self.stage(matter, way, &base, &mut factors, effort)?;
         // The rates of the first stage act for what is left of the step.
         let rest = dt - tau;
         let base = Base {
@@ -119,10 +119,11 @@ impl<const D: usize> Liquid<D> {
             pushed: self.pushed(matter, dt),
         };
         drop(first);
+        // Where fits are made anew rows may be others.
         if self.borne.is_none() {
             factors = Factors::default();
         }
-        self.stage(matter, way, &base, (&mut factors, effort))
+        self.stage(matter, way, &base, &mut factors, effort)
     }
 
     /// The pressure of the liquid as it is, and the rates that go with it; gives its surface.
@@ -187,9 +188,9 @@ impl<const D: usize> Liquid<D> {
         matter: &Matter<D>,
         way: &Way,
         base: &Base<D>,
-        work: (&mut Factors, &mut Effort),
+        factors: &mut Factors,
+        effort: &mut Effort,
     ) -> Result<Ended<D>, Failure> {
-        let (factors, effort) = work;
         let (n, surface, tau) = (base.position.len(), self.surface(), base.tau);
         let guess = stepped(&base.velocity, tau, &self.rate);
         let goes = self.moved(&guess);
@@ -230,7 +231,8 @@ impl<const D: usize> Liquid<D> {
             tau,
             way,
         };
-        self.push(&rounds, &free, &right, guess, (factors, &mut *effort))?;
+        self.velocity = guess;
+        self.push(&rounds, &free, &right, factors, effort)?;
         self.rate = (0..n)
             .map(|i| difference(&self.velocity[i], &base.velocity[i]).map(|d| d / tau))
             .collect();

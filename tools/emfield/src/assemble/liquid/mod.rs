@@ -263,7 +263,7 @@ fn lift(
     let about = outline(place.skin, centre)?;
     let stood = field.stand(&about, centre);
     let sides = field.fit(&stood)?;
-    let act = field.act(&stood, &sides, place, way.rule(), effort)?;
+    let act = field.act(&stood, &sides, place, way.of_fields(), effort)?;
     let mut force = act.pull;
     let phi = liquid.stirred(&mut force, &act.phi, way, effort)?;
     let traction = phi.iter().zip(&act.pressure).take(liquid.surface());
@@ -282,5 +282,5 @@ fn pull(
 ) -> Result<Vec<f64>, Failure> {
     let stood = field.stand(Place::of(&liquid.position, &liquid.normal, way.spacing))?;
     let fitted = field.fit(&stood)?;
-    field.traction(&stood, &fitted, way.rule(), effort)
+    field.traction(&stood, &fitted, way.of_fields(), effort)
 }
