@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod beside;
+mod handover;
 mod new;
 mod package;
 mod preview;

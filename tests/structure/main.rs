@@ -40,7 +40,8 @@ fn allowed(from: &str) -> BTreeSet<&'static str> {
     let set: &[&str] = match from {
         "neighbours" | "props" | "krylov" | "quadrature" | "steps" | "manual" => &[],
         "shapes" => &["quadrature"],
-        "contact" | "torch" => &["shapes"],
+        "contact" => &["shapes"],
+        "torch" => &["quadrature", "shapes"],
         "kernels" | "particles" => &["neighbours"],
         "wls" => &["neighbours", "krylov"],
         "relax" => &["krylov"],
@@ -48,7 +49,7 @@ fn allowed(from: &str) -> BTreeSet<&'static str> {
         "run" => &["artefact", "manual"],
         "columns" => &["artefact", "particles"],
         "fuzz" => &["artefact"],
-        "report" => &["artefact", "manual", "neighbours", "run"],
+        "report" => &["artefact", "manual", "neighbours", "run", "torch"],
         "sweep" => &["artefact", "manual", "run"],
         "verification" => &["artefact", "kernels", "neighbours", "relax", "run", "wls"],
         _ => return NUMERICS.iter().chain(&HARNESS).copied().collect(),

@@ -72,6 +72,11 @@ fn exact(x: [f64; 3], like: &Like) -> f64 {
 
 /// Greatest error of a run over the greatest rise.
 fn error(spacing: f64, more: &Value, like: &Like) -> f64 {
+    error_to(spacing, more, like, &|x| exact(x, like))
+}
+
+/// The same against any exact rise of temperature.
+fn error_to(spacing: f64, more: &Value, like: &Like, exact: &dyn Fn([f64; 3]) -> f64) -> f64 {
     let mut points = json!({"spacing_m": spacing});
     let keys = points.as_object_mut().unwrap();
     keys.extend(more.as_object().unwrap().clone());
@@ -123,7 +128,7 @@ fn error(spacing: f64, more: &Value, like: &Like) -> f64 {
     let temperatures = frame.f64("temperature").unwrap();
     let mut greatest = [0.0_f64; 2];
     for (x, t) in places.iter().zip(temperatures) {
-        let rise = exact(*x, like);
+        let rise = exact(*x);
         greatest[0] = greatest[0].max((t - 300.0 - rise).abs());
         greatest[1] = greatest[1].max(rise);
     }
@@ -180,6 +185,34 @@ fn pulses_warm_a_half_space_as_the_sum_of_their_instants_does() {
     // The last pulse has spread by a standard deviation of 2.2 mm: two spacings, and one.
     assert!(
         errors[0] < 0.3 && errors[1] < 0.35 * errors[0],
+        "{errors:?}"
+    );
+}
+
+#[test]
+fn two_unequal_halves_warm_a_half_space_as_torch_says() {
+    let shape = json!({"double_ellipsoid": {"front_m": 2.5e-3, "rear_m": 6e-3, "half_width_m": 3e-3, "depth_m": 2.5e-3}});
+    let goldak: torch::Shape = serde_json::from_value(shape.clone()).unwrap();
+    let like = Like {
+        shape,
+        variance: [0.0; 3],
+        waveform: None,
+    };
+    let plate = torch::Plate {
+        conductivity_w_m_k: CONDUCTIVITY,
+        capacity_j_m3_k: CAPACITY,
+        ends_m: [[None; 2]; 2],
+        thickness_m: None,
+    };
+    let exact = |x: [f64; 3]| {
+        let away = [x[0] - START[0], x[1] - START[1]];
+        let ahead = away[0] * AHEAD[0] + away[1] * AHEAD[1];
+        let across = away[1] * AHEAD[0] - away[0] * AHEAD[1];
+        POWER * plate.rise_per_watt(&goldak, SPEED, [ahead, across, -x[2]], END)
+    };
+    let errors = [2e-3, 1e-3].map(|spacing| error_to(spacing, &json!({}), &like, &exact));
+    assert!(
+        errors[0] < 0.2 && errors[1] < 0.35 * errors[0],
         "{errors:?}"
     );
 }

@@ -68,10 +68,14 @@ enum Action {
         #[arg(long)]
         pool: PathBuf,
     },
-    /// Prints the pool of a weld as a double ellipsoid (Goldak), a heat source for other programs.
+    /// Prints the double ellipsoid (Goldak) that warms the metal around a pool as the weld does, a heat source for other programs.
+    #[command(after_help = GOLDAK)]
     Goldak {
         /// Particle frames of the weld.
         pool: PathBuf,
+        /// Take the half axes of the pool itself, without a fit.
+        #[arg(long)]
+        melt: bool,
     },
     /// Writes the temperatures of a run at the nodes of a mesh, as steps of CalculiX.
     #[command(after_help = CALCULIX)]
@@ -133,6 +137,12 @@ const COMPARE: &str = "Example, from the repository root:\n  \
 const GAS: &str = "Example, from the repository root:\n  \
     target/release/report gas --study gases --out build/gases/report.html \\\n    \
     --table argon=build/gases/argon.mcap --reference argon=pipelines/gases/reference-argon.json";
+
+const GOLDAK: &str = "What is printed is an entry of the key 'torches'. The conductivity and the heat capacity are means of the metal's own up to \
+    its melting point, and closed faces of the plate let no heat through. Exit code 3 where the fit is off by more than 5 % of the rise to \
+    the melting point. \
+    Example, from the repository root:\n  \
+    target/release/report goldak build/gmaw-quick/pool.mcap";
 
 const CALCULIX: &str = "Steps are static, of the length of time between frames; what else a step needs (supports, materials) stands before them \
     in the input of the mesh. Exit code 3 where nodes lie in no metal. Example, from the repository root:\n  \
@@ -320,7 +330,7 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
         Action::Live(files) => page::live::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),
         Action::Figures { pool } => figures::run(pool),
-        Action::Goldak { pool } => handover::goldak::run(pool),
+        Action::Goldak { pool, melt } => handover::goldak::run(pool, *melt),
         Action::Calculix(files) => handover::calculix::run(files),
         Action::Probes {
             file,

@@ -363,13 +363,21 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
 /// # Errors
 /// When nothing can be written there.
 pub(crate) fn warn(path: &Path, what: &str) -> Result<ExitCode, Failure> {
-    let text = format!("warning: {}: {what}\n", path.display());
+    say(&format!("warning: {}: {what}\n", path.display()))?;
+    Ok(ExitCode::from(3))
+}
+
+/// Tells on standard error what is to be known of what was printed from a file.
+pub(crate) fn note(path: &Path, what: &str) -> Result<(), Failure> {
+    say(&format!("{}: {what}\n", path.display()))
+}
+
+fn say(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stderr().lock();
-    let written = out.write_all(artefact::shown(&text).as_bytes());
+    let written = out.write_all(artefact::shown(text).as_bytes());
     written.map_err(|source| Failure::Io {
         path: "stderr".into(),
         action: "write",
         source,
-    })?;
-    Ok(ExitCode::from(3))
+    })
 }

@@ -47,7 +47,7 @@ pub(crate) struct Plate {
 
 impl Plate {
     /// How thick the base metal is \[m\].
-    fn thickness(&self) -> Option<f64> {
+    pub(crate) fn thickness(&self) -> Option<f64> {
         Some(self.max_m?[2] - self.min_m?[2])
     }
 }

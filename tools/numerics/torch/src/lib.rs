@@ -14,6 +14,7 @@
 //! A point takes the mean of q over its cell, with the cell as a cloud of the variance of a cube, d^2/12 along every axis: it is the
 //! same in every direction, and no source is too narrow to be met.
 
+mod conduction;
 mod erfc;
 mod misfit;
 pub mod path;
@@ -21,6 +22,7 @@ pub mod shape;
 mod torch;
 mod waveform;
 
+pub use conduction::Plate;
 pub use misfit::Misfit;
 pub use path::{Path, Weave};
 pub use shape::{DoubleEllipsoid, Gaussian, Shape};

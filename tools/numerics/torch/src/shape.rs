@@ -92,8 +92,13 @@ fn variance(half_axis: f64) -> f64 {
 impl DoubleEllipsoid {
     /// q over P \[1/m3\] at (xi, eta, zeta) \[m\], as the mean over a cell of the size `d` \[m\].
     #[must_use]
-    pub fn density(&self, [xi, eta, zeta]: [f64; 3], d: f64) -> f64 {
-        let b = d * d / 12.0;
+    pub fn density(&self, place: [f64; 3], d: f64) -> f64 {
+        self.spread(place, d * d / 12.0)
+    }
+
+    /// The same as the mean over a cloud of the variance `b` \[m2\].
+    #[must_use]
+    pub fn spread(&self, [xi, eta, zeta]: [f64; 3], b: f64) -> f64 {
         let (front, rear) = (self.front_m, self.rear_m);
         let ahead = self.front_fraction.unwrap_or(2.0 * front / (front + rear));
         let lengthwise = ahead / front * half_bell(xi, variance(front), b)
@@ -120,7 +125,13 @@ impl Gaussian {
     /// q over P \[1/m2\] at the distance `rho` from the axis \[m\], as the mean over a patch of the size `d` \[m\].
     #[must_use]
     pub fn density(&self, rho: f64, d: f64) -> f64 {
-        let (a, b) = (variance(self.radius_m), d * d / 12.0);
+        self.spread(rho, d * d / 12.0)
+    }
+
+    /// The same as the mean over a cloud of the variance `b` \[m2\].
+    #[must_use]
+    pub fn spread(&self, rho: f64, b: f64) -> f64 {
+        let a = variance(self.radius_m);
         // Two axes across: the factor in front is that of one squared.
         3.0 / (PI * self.radius_m * self.radius_m) * a / (a + b)
             * (-rho * rho / (2.0 * (a + b))).exp()
@@ -139,6 +150,19 @@ impl Shape {
         }
     }
 
+    /// q over P \[1/m3\] at (xi, eta, zeta) \[m\] once it has spread by the variance `b` \[m2\] along every axis.
+    #[must_use]
+    pub fn spread(&self, [xi, eta, zeta]: [f64; 3], b: f64) -> f64 {
+        match self {
+            Self::DoubleEllipsoid(e) => e.spread([xi, eta, zeta], b),
+            // All heat of the surface goes into the half space.
+            Self::Gaussian(g) => {
+                let into = 2.0 * (-zeta * zeta / (2.0 * b)).exp() / (2.0 * PI * b).sqrt();
+                g.spread(xi.hypot(eta), b) * into
+            }
+        }
+    }
+
     /// Part of its greatest q that points of the spacing `d` \[m\] show: 1 where they are fine, and ever less the more they widen it.
     #[must_use]
     pub fn peak(&self, d: f64) -> f64 {
@@ -148,15 +172,20 @@ impl Shape {
         }
     }
 
-    /// Distance beyond which a cell of the size `d` \[m\] gets nothing \[m\].
-    #[must_use]
-    pub fn reach(&self, d: f64) -> f64 {
-        let greatest = match self {
+    /// Greatest half axis \[m\].
+    pub(crate) fn greatest(&self) -> f64 {
+        match self {
             Self::DoubleEllipsoid(e) => [e.half_width_m, e.depth_m, e.front_m, e.rear_m]
                 .into_iter()
                 .fold(0.0, f64::max),
             Self::Gaussian(g) => g.radius_m,
-        };
+        }
+    }
+
+    /// Distance beyond which a cell of the size `d` \[m\] gets nothing \[m\].
+    #[must_use]
+    pub fn reach(&self, d: f64) -> f64 {
+        let greatest = self.greatest();
         // The half axis of the variance of both.
         REACH * (greatest * greatest + 0.5 * d * d).sqrt()
     }

@@ -1,17 +1,22 @@
-//! `report goldak`: the double ellipsoid that a weld's pool is, as a torch for `heatsph`, `poolsph` or other programs.
+//! `report goldak`: the double ellipsoid that warms metal as a weld does, as a torch for `heatsph`, `poolsph` or other programs.
 //!
-//! Its half axes are those of the pool (Goldak, Chakravarti and Bibby 1984): half of the width, the depth, and the lengths
-//! before and behind the source, each the mean over the frames of the last third of the time in which heat is brought. Its power is
-//! the heat that the metal has taken: what is stored and what has left through open faces, over the same time.
+//! The pool is measured by half of its width, its depth, and its lengths before and behind the source, each the mean over the frames of
+//! the last third of the time in which heat is brought. The power of the source is the heat that the metal has taken: what is stored and
+//! what has left through open faces, over the same time. Its half axes are fitted, so that conduction alone warms the
+//! metal around this pool as the weld does (`fit`), or they are those of the pool itself, as Goldak, Chakravarti and Bibby (1984) advise.
 
 use std::path::Path;
 use std::process::ExitCode;
 
 use artefact::Reader;
 use run::Failure;
+use serde::Deserialize;
 use serde_json::{Value, json};
+use torch::Torch;
 
-use crate::files::print;
+use super::fit::{FRAMES, Going, Metal, Sample, missed, samples};
+use super::pool::Pool;
+use crate::files::{note, print, warn};
 use crate::mirror::Mirror;
 use crate::weld::{PARTICLES, Source, Weld};
 
@@ -21,59 +26,156 @@ const GROWN: f64 = 2.0 / 3.0;
 /// Least part of a spacing that is a half axis of a pool.
 const RESOLVED: f64 = 0.1;
 
-/// Prints the torch as JSON: an entry of the key `torches`.
-pub(crate) fn run(pool: &Path) -> Result<ExitCode, Failure> {
-    let reader = Reader::open_sound(pool, "particle-frames", 1)?;
-    let told = |what: &str| Failure::Usage(format!("{}: {what}", pool.display()));
-    let until = burns_until(&reader)?;
-    let times = reader.times(PARTICLES)?;
-    let count = times.partition_point(|t| *t <= until);
-    let first = (GROWN * count as f64).floor() as usize;
-    let (mut pools, mut ways) = (Vec::new(), Vec::new());
-    let (mut top, mut spacing, mut sources) = (0.0, 0.0, 0);
-    for index in first..count {
-        let weld = Weld::read(&reader, index)?;
-        let Some(source) = weld.source else { continue };
-        (top, spacing, sources) = (weld.way.top(), weld.plate.spacing_m, sources + 1);
-        if let Some(pool) = Pool::of(&weld, source) {
-            ways.push((weld.time, source.place()));
-            pools.push(pool);
-        }
-    }
-    if sources == 0 {
-        return Err(told("has no source whose pool could be measured"));
-    }
-    let (Some(from), Some(to)) = (ways.first(), ways.last().filter(|to| to.0 > ways[0].0)) else {
-        return Err(told(
-            "nothing is molten in the last frames of its arc: there is no pool to fit",
-        ));
-    };
-    let mean = Pool::mean(&pools);
-    mean.must_be_one(RESOLVED * spacing)
+/// Prints the torch as JSON: an entry of the key `torches`. Half axes are fitted, or with `melt` those of the pool.
+pub(crate) fn run(file: &Path, melt: bool) -> Result<ExitCode, Failure> {
+    let reader = Reader::open_sound(file, "particle-frames", 1)?;
+    let told = |what: &str| Failure::Usage(format!("{}: {what}", file.display()));
+    let first = Weld::read(&reader, 0)?;
+    let course = Course::read(&reader, &told)?;
+    let pool = Pool::mean(&course.pools);
+    pool.must_be_one(RESOLVED * first.plate.spacing_m)
         .map_err(|what| told(&what))?;
-    // The path is that of the whole weld.
-    let start = match Source::at(&reader, times[0])? {
-        Some(source) => (0.0, source.place()),
-        None => *from,
+    let power_w = power(&reader, course.from.0, course.to.0)?;
+    let power_w =
+        power_w.ok_or_else(|| told("tells no balance of heat"))? * Mirror::times(&reader)?;
+    let speed_m_s = course.speed();
+    if melt {
+        print(&course.torch(pool, power_w, first.way.top()))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let metal = Metal::of(&reader, &first, course.start.1)?;
+    let near = course.samples(&reader, &metal)?;
+    let going = Going {
+        metal,
+        power_w,
+        speed_m_s,
     };
-    let power = power(&reader, from.0, to.0)?.ok_or_else(|| told("tells no balance of heat"))?;
-    let power = power * Mirror::times(&reader)?;
-    let way = [to.1[0] - start.1[0], to.1[1] - start.1[1]];
-    let speed = way[0].hypot(way[1]) / (to.0 - start.0);
-    let place = |at: [f64; 2]| json!([at[0], at[1], top]);
-    let torch = json!({
-        "power_w": power,
-        "path": {"points_m": [place(start.1), place(to.1)], "speed_m_s": speed},
-        "shape": {"double_ellipsoid": {
-            "half_width_m": mean.across,
-            "depth_m": mean.depth,
-            "front_m": mean.ahead,
-            "rear_m": mean.behind,
-        }},
-    });
-    let text = format!("{:#}\n", without_path(torch, speed));
-    print(&text)?;
-    Ok(ExitCode::SUCCESS)
+    let (axes, left) = going.fit(pool, &near);
+    print(&course.torch(axes, power_w, first.way.top()))?;
+    let [width, depth, ahead, behind] = pool.reaches().map(|reach| 1e3 * reach);
+    note(
+        file,
+        &format!(
+            "fitted by conduction in {} to {} particles, which it misses by {:.1} % of their rise to the melting point in the mean square; the pool \
+             is {depth:.2} mm deep and {:.2} mm wide and reaches {ahead:.2} mm ahead of its source and {behind:.2} mm behind",
+            metal.words(),
+            near.len(),
+            100.0 * left,
+            2.0 * width
+        ),
+    )?;
+    match missed(&metal, left) {
+        Some(what) => warn(file, &what),
+        None => Ok(ExitCode::SUCCESS),
+    }
+}
+
+/// A moment \[s\] and the place of the source then \[m\].
+type Moment = (f64, [f64; 2]);
+
+/// The way of the source, and its pools in the last frames of its arc.
+struct Course {
+    start: Moment,
+    from: Moment,
+    to: Moment,
+    pools: Vec<Pool>,
+    /// Frames of the pools.
+    frames: Vec<usize>,
+}
+
+impl Course {
+    fn read(reader: &Reader, told: &dyn Fn(&str) -> Failure) -> Result<Self, Failure> {
+        let until = burns_until(reader)?;
+        let times = reader.times(PARTICLES)?;
+        let count = times.partition_point(|t| *t <= until);
+        let first = (GROWN * count as f64).floor() as usize;
+        let torch = torch(reader);
+        let (mut pools, mut frames, mut ways, mut sources) = (vec![], vec![], vec![], 0);
+        for index in first..count {
+            let weld = Weld::read(reader, index)?;
+            let source = weld.source.map(Source::place);
+            let Some(place) = source.or_else(|| torch.as_ref().map(|t| under(t, weld.time))) else {
+                continue;
+            };
+            sources += 1;
+            if let Some(pool) = Pool::of(&weld, place) {
+                ways.push((weld.time, place));
+                pools.push(pool);
+                frames.push(index);
+            }
+        }
+        if sources == 0 {
+            return Err(told("has no source whose pool could be measured"));
+        }
+        let (Some(from), Some(to)) = (ways.first(), ways.last().filter(|to| to.0 > ways[0].0))
+        else {
+            return Err(told(
+                "nothing is molten in the last frames of its arc: there is no pool to fit",
+            ));
+        };
+        // The path is that of the whole weld.
+        let start = match (Source::at(reader, times[0])?, &torch) {
+            (Some(source), _) => (0.0, source.place()),
+            (None, Some(torch)) => (torch.path.burns()[0], under(torch, torch.path.burns()[0])),
+            (None, None) => *from,
+        };
+        Ok(Self {
+            start,
+            from: *from,
+            to: *to,
+            pools,
+            frames,
+        })
+    }
+
+    /// Metal near the pool in a few of these frames, the first and the last among them.
+    fn samples(&self, reader: &Reader, metal: &Metal) -> Result<Vec<Sample>, Failure> {
+        let last = self.frames.len() - 1;
+        let mut all = Vec::new();
+        for k in 0..FRAMES {
+            let weld = Weld::read(reader, self.frames[k * last / (FRAMES - 1)])?;
+            let seconds = weld.time - self.start.0;
+            all.extend(samples(&weld, metal, self.start.1, seconds));
+        }
+        Ok(all)
+    }
+
+    /// Of the source along its path \[m/s\].
+    fn speed(&self) -> f64 {
+        let way = [0, 1].map(|k| self.to.1[k] - self.start.1[k]);
+        way[0].hypot(way[1]) / (self.to.0 - self.start.0)
+    }
+
+    /// The torch of these half axes on this way, on a plate whose surface is at the height `top`.
+    fn torch(&self, axes: Pool, power_w: f64, top: f64) -> String {
+        let place = |at: [f64; 2]| json!([at[0], at[1], top]);
+        let speed = self.speed();
+        let torch = json!({
+            "power_w": power_w,
+            "path": {"points_m": [place(self.start.1), place(self.to.1)], "speed_m_s": speed},
+            "shape": {"double_ellipsoid": {
+                "half_width_m": axes.across,
+                "depth_m": axes.depth,
+                "front_m": axes.ahead,
+                "rear_m": axes.behind,
+            }},
+        });
+        format!("{:#}\n", without_path(torch, speed))
+    }
+}
+
+/// The torch of the scene, where it has a single one.
+fn torch(reader: &Reader) -> Option<Torch> {
+    match reader.header().scene.get("torches")?.as_array()?.as_slice() {
+        [torch] => Torch::deserialize(torch).ok(),
+        _ => None,
+    }
+}
+
+/// Where a torch stands \[m\].
+fn under(torch: &Torch, time: f64) -> [f64; 2] {
+    let [x, y, _] = torch.stand(time).place;
+    [x, y]
 }
 
 /// A source that stands has no speed.
@@ -87,71 +189,6 @@ fn without_path(mut torch: Value, speed: f64) -> Value {
         }
     }
     torch
-}
-
-/// How far the liquid around a source reaches \[m\].
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Pool {
-    across: f64,
-    depth: f64,
-    ahead: f64,
-    behind: f64,
-}
-
-impl Pool {
-    /// The liquid of the bead below the surface of the plate; nothing where there is none.
-    fn of(weld: &Weld, source: Source) -> Option<Self> {
-        let half = 0.5 * weld.plate.spacing_m;
-        let (across, along) = (
-            weld.way.across(source.place()),
-            weld.way.along(source.place()),
-        );
-        let liquid = (0..weld.position.len()).filter(|i| weld.liquid[*i] && weld.belongs(*i));
-        let mut pool: Option<Self> = None;
-        for [x, y, z] in liquid.map(|i| weld.position[i]).filter(|x| x[2] < 0.0) {
-            let own = Self {
-                across: (x - across).abs() + half,
-                depth: half - z,
-                ahead: y - along + half,
-                behind: along - y + half,
-            };
-            let so_far = pool.unwrap_or(own);
-            pool = Some(Self {
-                across: so_far.across.max(own.across),
-                depth: so_far.depth.max(own.depth),
-                ahead: so_far.ahead.max(own.ahead),
-                behind: so_far.behind.max(own.behind),
-            });
-        }
-        pool
-    }
-
-    /// The mean of pools.
-    fn mean(pools: &[Self]) -> Self {
-        let mean = |of: fn(&Self) -> f64| pools.iter().map(of).sum::<f64>() / pools.len() as f64;
-        Self {
-            across: mean(|pool| pool.across),
-            depth: mean(|pool| pool.depth),
-            ahead: mean(|pool| pool.ahead),
-            behind: mean(|pool| pool.behind),
-        }
-    }
-
-    /// Whether its half axes are those of a body around the source, each at least `least` \[m\].
-    fn must_be_one(&self, least: f64) -> Result<(), String> {
-        for (name, axis, where_) in [
-            ("front_m", self.ahead, "behind"),
-            ("rear_m", self.behind, "ahead of"),
-        ] {
-            if axis < least {
-                return Err(format!(
-                    "the pool lies {where_} its source: {name} would be {axis:.3e} m, and no double ellipsoid around the source has \
-                     that. Let the source of the scene go where the heat is given"
-                ));
-            }
-        }
-        Ok(())
-    }
 }
 
 /// Until when heat is brought \[s\]: the last record over whose time it came in at half of its mean rate or more.
@@ -226,28 +263,5 @@ mod tests {
         // In the last of these times it burnt for a tenth.
         assert_eq!(of(13.1).to_bits(), 13.0_f64.to_bits());
         assert!(last_brought(&[]).is_infinite());
-    }
-
-    #[test]
-    fn a_pool_that_does_not_surround_its_source_is_no_ellipsoid() {
-        let pool = |ahead, behind| Pool {
-            across: 2e-3,
-            depth: 1e-3,
-            ahead,
-            behind,
-        };
-        assert!(pool(1e-3, 4e-3).must_be_one(1e-4).is_ok());
-        let told = pool(-2.1e-3, 6e-3).must_be_one(1e-4).unwrap_err();
-        assert!(
-            told.contains("front_m") && told.contains("behind its source"),
-            "{told}"
-        );
-        assert!(pool(7.6e-11, 6e-3).must_be_one(1e-4).is_err());
-        assert!(
-            pool(4e-3, -1e-3)
-                .must_be_one(1e-4)
-                .unwrap_err()
-                .contains("rear_m")
-        );
     }
 }

@@ -2,5 +2,7 @@
 
 pub(crate) mod calculix;
 mod field;
+mod fit;
 pub(crate) mod goldak;
 mod mesh;
+mod pool;

@@ -164,7 +164,12 @@ fn the_pool_of_a_weld_is_an_ellipsoid_with_the_power_that_it_took() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("pool.mcap");
     sample::weld(&path, 8.0, 9, true);
-    let output = report(&["goldak", path.to_str().unwrap()]);
+    // Nothing is told of its metal: nothing can be fitted.
+    let refused = report(&["goldak", path.to_str().unwrap()]);
+    let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(said.contains("--melt"), "{said}");
+    let output = report(&["goldak", "--melt", path.to_str().unwrap()]);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{said}");
     let torch: Value = serde_json::from_slice(&output.stdout).unwrap();

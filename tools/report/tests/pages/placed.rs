@@ -197,7 +197,7 @@ impl Placed {
     }
 
     fn torch(&self) -> Value {
-        serde_json::from_str(&self.told(&["goldak"])).unwrap()
+        serde_json::from_str(&self.told(&["goldak", "--melt"])).unwrap()
     }
 }
 
