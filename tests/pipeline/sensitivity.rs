@@ -6,7 +6,7 @@ use std::process::Command;
 /// Elementary effects of y = 3 a + 2 b^2 + 0 c over ranges from 0 to 1: of a 3 everywhere, of b 2 (b + b') along each step,
 /// of c none; and the points of the plan of a study as a sweep.
 const KNOWN: &str = r"
-import importlib.machinery, importlib.util, json, sys
+import importlib.machinery, importlib.util, json, pathlib, sys
 loader = importlib.machinery.SourceFileLoader('sensitivity', 'tools/sweep/sensitivity')
 s = importlib.util.module_from_spec(importlib.util.spec_from_loader('sensitivity', loader))
 loader.exec_module(s)
@@ -28,35 +28,39 @@ assert s.effects(ways[:1], [[y(p) for p in ways[0][1]]])[0][2:] == (None, 1)
 assert ways == s.trajectories(3, morris)
 lost = s.effects(ways[:1], [[None] * 4])
 assert lost == [None, None, None]
-plan = s.read('pipelines/first-weld/sensitivity.json')
-points, single, ways, along = s.points_of(plan)
-assert len(set(points)) == len(points) and points[single[0]] == tuple(i['base'] for i in plan['inputs'])
-assert len(single) == 1 + 2 * len(plan['inputs']) and all(len(w) == 1 + len(plan['inputs']) for w in along)
-json.dump(s.sweep_of(plan, points), open(sys.argv[1], 'w'))
+for place in sorted(pathlib.Path('pipelines').glob('*/sensitivity.json')):
+    plan = s.read(place)
+    points, single, ways, along = s.points_of(plan)
+    assert len(set(points)) == len(points) and points[single[0]] == tuple(i['base'] for i in plan['inputs'])
+    assert len(single) == 1 + 2 * len(plan['inputs']) and all(len(w) == 1 + len(plan['inputs']) for w in along)
+    json.dump(s.sweep_of(plan, points), open(pathlib.Path(sys.argv[1], place.parent.name + '.json'), 'w'))
 ";
 
 #[test]
 fn points_and_measures_are_those_of_morris_and_the_sweep_is_sound() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let sweep = folder.path().join("points.json");
     let found = Command::new("python3")
         .args(["-c", KNOWN])
-        .arg(&sweep)
+        .arg(folder.path())
         .current_dir(root)
         .output()
         .unwrap();
     let said = String::from_utf8_lossy(&found.stderr);
     assert!(found.status.success(), "{said}");
     let program = Path::new(env!("CARGO_BIN_EXE_verify")).with_file_name("sweep");
-    let checked = Command::new(program)
-        .arg("check")
-        .arg(&sweep)
-        .current_dir(root)
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&checked.stderr);
-    assert!(checked.status.success(), "{said}");
+    let plans: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
+    assert!(plans.len() > 1, "{plans:?}");
+    for plan in plans {
+        let checked = Command::new(&program)
+            .arg("check")
+            .arg(plan.unwrap().path())
+            .current_dir(root)
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&checked.stderr);
+        assert!(checked.status.success(), "{said}");
+    }
 }
 
 #[test]
