@@ -64,8 +64,8 @@ B ?=
 COMPARED = build/compare/$(notdir $(A:/=))-$(notdir $(B:/=)).html
 compare: programs ## one page that compares two runs (A=folder B=folder)
 	@[ -n "$(A)" ] && [ -n "$(B)" ] || { echo "say both: make compare A=build/gmaw-quick B=build/my-weld" >&2; exit 2; }
-	@$(BIN)/report compare --a "$(A)" --b "$(B)" --out $(COMPARED)
-	@echo "to look at: $(COMPARED)"
+	@$(BIN)/report compare --a "$(A)" --b "$(B)" --out $(COMPARED); code=$$?; \
+	  case $$code in 0 | 3) echo "to look at: $(COMPARED)" ;; esac; exit $$code
 
 # A look before running: the initial state of every stage of a study.
 .PHONY: preview

@@ -41,7 +41,7 @@ fn hyperqueue_makes_the_points_in_their_order_and_tells_what_failed() {
         .unwrap();
     let said = String::from_utf8_lossy(&ended.stderr).into_owned();
     assert!(
-        !ended.status.success() && said.contains("Error 3"),
+        !ended.status.success() && said.contains("Error 1"),
         "{said}"
     );
     assert!(said.contains("4 of 6 points are made"), "{said}");

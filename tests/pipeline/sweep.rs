@@ -84,7 +84,7 @@ fn a_point_that_fails_is_told_and_the_others_are_made() {
     let (ended, runs) = workshop.swept(&[]);
     assert!(!ended.status.success());
     let said = told(&ended);
-    assert!(said.contains("Error 3"), "{said}");
+    assert!(said.contains("Error 1"), "{said}");
     assert_eq!(
         runs,
         [1, 3, 4],
@@ -118,6 +118,39 @@ fn a_point_that_fails_is_told_and_the_others_are_made() {
         made.as_array().unwrap().len(),
         1,
         "the arc, and no old pool: {made}"
+    );
+}
+
+#[test]
+fn points_that_are_not_comparable_end_a_sweep_with_a_warning_and_again_the_next_time() {
+    let workshop = Workshop::new();
+    let report = workshop.root.join("target/release/report");
+    let copies = std::fs::read_to_string(&report).unwrap();
+    let words = r#"echo '{"kind": "sweep-told", "version": "1.0", "told": ["1.0 s and 0.1 s are unlike"]}' > "${out%.html}.told.json""#;
+    std::fs::write(
+        &report,
+        format!("{copies}{words}\n: > \"${{out%.html}}.csv\"\n"),
+    )
+    .unwrap();
+    workshop.sweep(&welds(&json!([200, 300]), &json!([0.01])));
+    for _ in 0..2 {
+        let (ended, _) = workshop.swept(&[]);
+        let said = told(&ended);
+        assert!(
+            said.contains("Error 3") && said.contains("2 of 2 points are made"),
+            "{said}"
+        );
+        assert!(
+            said.contains("sweep: not comparable: 1.0 s and 0.1 s are unlike"),
+            "{said}"
+        );
+    }
+    // A point that fails weighs more.
+    workshop.sweep(&welds(&json!([200, "impossible"]), &json!([0.01])));
+    let said = told(&workshop.swept(&[]).0);
+    assert!(
+        said.contains("Error 1") && said.contains("not comparable"),
+        "{said}"
     );
 }
 

@@ -325,7 +325,7 @@ fn write(action: &Action) -> Result<ExitCode, Failure> {
         Action::Drop(files) => page::drop::write(files).map(|()| ExitCode::SUCCESS),
         Action::Gas(files) => page::gas::write(files).map(|()| ExitCode::SUCCESS),
         Action::Sweep(files) => page::sweep::write(files).map(|()| ExitCode::SUCCESS),
-        Action::Compare(files) => page::pair::write(files).map(|()| ExitCode::SUCCESS),
+        Action::Compare(files) => page::pair::write(files),
         Action::Preview(files) => page::preview::write(files).map(|()| ExitCode::SUCCESS),
         Action::Live(files) => page::live::write(files).map(|()| ExitCode::SUCCESS),
         Action::Index(folders) => index::write(folders).map(|()| ExitCode::SUCCESS),

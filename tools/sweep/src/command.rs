@@ -20,7 +20,8 @@ use crate::{check, here, judge, queue, rules, slurm};
     version,
     after_help = "Example, from the repository root:\n  \
     target/release/sweep check pipelines/arc-currents/sweep.json\n\n\
-    Exit code: 0 all points are made; 3 points failed, and the page tells which; 1 there is no page; 2 the sweep is not sound."
+    Exit code: 0 all points are made; 3 all are made, and runs warned or points are not comparable; 1 points failed, and the \
+    page tells which, or there is no page; 2 the sweep is not sound."
 )]
 struct Line {
     #[command(subcommand)]
@@ -145,10 +146,7 @@ fn make(points: &Points, engine: Engine, threads: usize, wait: bool) -> Result<E
 }
 
 fn concluded(points: &Points) -> Result<ExitCode, Failure> {
-    Ok(match judge::conclude(points)? {
-        0 => ExitCode::SUCCESS,
-        _ => ExitCode::from(3),
-    })
+    Ok(judge::conclude(points)?.code())
 }
 
 /// What would be run.

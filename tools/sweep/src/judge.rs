@@ -1,7 +1,7 @@
 //! When all has ended: what was made, the page, and what failed.
 
-use std::path::Path;
-use std::process::Command;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
 
 use run::Failure;
 use serde_json::{Value, json};
@@ -79,11 +79,65 @@ fn warnings(points: &Points, runs: &[usize]) -> Vec<String> {
         .collect()
 }
 
-/// Writes the record and the page, and tells what failed and what runs warned of; the number of points of either kind.
+/// How a sweep ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Ended {
+    /// Points that are not made.
+    failed: usize,
+    /// Points whose runs warned of something.
+    doubtful: usize,
+    /// Statements of the page on what is not comparable.
+    unlike: usize,
+}
+
+impl Ended {
+    /// A point that is not there is a failure; what is there with reservations ends as a run with warnings does.
+    pub(crate) fn code(self) -> ExitCode {
+        ExitCode::from(self.number())
+    }
+
+    fn number(self) -> u8 {
+        match self {
+            Self { failed: 1.., .. } => 1,
+            Self {
+                doubtful: 0,
+                unlike: 0,
+                ..
+            } => 0,
+            _ => 3,
+        }
+    }
+}
+
+/// What the page tells of points that are not comparable.
+#[derive(Debug, serde::Deserialize)]
+struct Unlike {
+    told: Vec<String>,
+}
+
+/// The same as a file beside the page.
+fn unlike_file(points: &Points) -> PathBuf {
+    points.out.with_added_extension("told.json")
+}
+
+/// What the page told when it was made.
+///
+/// # Errors
+/// When its file cannot be read.
+fn unlike(points: &Points) -> Result<Vec<String>, Failure> {
+    let path = unlike_file(points);
+    if !path.is_file() {
+        return Ok(Vec::new());
+    }
+    let unlike: Unlike = artefact::json_artefact(&path, "sweep-told", 1)?;
+    Ok(unlike.told)
+}
+
+/// Writes the record and the page, and tells what failed, what runs warned of, and what is not comparable.
 ///
 /// # Errors
 /// When no page can be made.
-pub(crate) fn conclude(points: &Points) -> Result<usize, Failure> {
+pub(crate) fn conclude(points: &Points) -> Result<Ended, Failure> {
     let troubles: Vec<Option<(String, String)>> = points
         .points
         .iter()
@@ -112,8 +166,16 @@ pub(crate) fn conclude(points: &Points) -> Result<usize, Failure> {
     if doubtful > 0 {
         say += &format!("sweep: {doubtful} of them warned of something\n");
     }
+    let unlike = unlike(points)?;
+    for words in &unlike {
+        say += &format!("sweep: not comparable: {words}\n");
+    }
     tell(&say);
-    Ok(failed + doubtful)
+    Ok(Ended {
+        failed,
+        doubtful,
+        unlike: unlike.len(),
+    })
 }
 
 #[allow(clippy::print_stderr, reason = "a program talks to its user")]
@@ -154,11 +216,12 @@ fn told(points: &Points, troubles: &[Option<(String, String)>]) -> Value {
     })
 }
 
-/// The page, made again only if what it shows has changed; its table as CSV stands beside it.
+/// The page, made again only if what it shows has changed; its table as CSV stands beside it, and what it tells of points that
+/// are not comparable.
 fn page(points: &Points, record: &Path) -> Result<(), Failure> {
     let name = |ending: &str| points.out.with_added_extension(ending);
     let (page, table) = (name("html"), name("csv"));
-    if !table.is_file() {
+    if !table.is_file() || !unlike_file(points).is_file() {
         let _ = std::fs::remove_file(artefact::beside(&page, ".key"));
     }
     let report = format!("{PROGRAMS}/report");
@@ -181,6 +244,20 @@ mod tests {
 
     use super::*;
     use crate::points::tests::welds;
+
+    #[test]
+    fn points_that_are_not_there_are_a_failure_and_doubts_are_warnings() {
+        let code = |failed, doubtful, unlike| {
+            let ended = Ended {
+                failed,
+                doubtful,
+                unlike,
+            };
+            ended.number()
+        };
+        assert_eq!((code(0, 0, 0), code(0, 1, 0), code(0, 0, 1)), (0, 3, 3));
+        assert_eq!((code(1, 0, 0), code(1, 2, 3)), (1, 1));
+    }
 
     #[test]
     fn what_the_runs_of_a_point_warned_of_is_told() {

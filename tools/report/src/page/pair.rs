@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use run::Failure;
 use serde_json::Value;
@@ -9,15 +10,15 @@ use serde_json::Value;
 use super::beside::{self, Member, curves, numbers, pictures};
 use super::runs;
 use crate::csv::{self, Csv};
-use crate::files::{PairFiles, save};
+use crate::files::{PairFiles, save, warn};
 use crate::html::{Page, Rows, escape, note, paragraph, percent};
 use crate::records::figure as digits;
 
 /// Hashes of what a stage has read, by name.
 type Inputs = BTreeMap<String, String>;
 
-/// Writes the page, and its table as CSV beside it.
-pub(crate) fn write(files: &PairFiles) -> Result<(), Failure> {
+/// Writes the page, and its table as CSV beside it; says what is not comparable.
+pub(crate) fn write(files: &PairFiles) -> Result<ExitCode, Failure> {
     let names = names(&files.a, &files.b);
     let found = [artefacts(&files.a)?, artefacts(&files.b)?];
     let members = [
@@ -32,7 +33,8 @@ pub(crate) fn write(files: &PairFiles) -> Result<(), Failure> {
     ));
     let mut page = Page::new(&format!("{} and {}", names[0], names[1]), &lead);
     page.section("What was changed", changes(&members));
-    let numbers = beside::unlike(&members) + &table(&names, &all);
+    let unlike = beside::unlike(&members);
+    let numbers = beside::notes(&unlike) + &table(&names, &all);
     page.section("The numbers", numbers);
     for stage in beside::stages(&members) {
         let body = pictures::section(&members, stage)?;
@@ -44,7 +46,12 @@ pub(crate) fn write(files: &PairFiles) -> Result<(), Failure> {
     page.section("How it was computed", runs::section(&records));
     let told = sheet(&names, &all);
     artefact::write_atomically(&files.out.with_extension("csv"), told.text().as_bytes())?;
-    save(&files.out, &page.render())
+    save(&files.out, &page.render())?;
+    let mut ended = ExitCode::SUCCESS;
+    for words in &unlike {
+        ended = warn(&files.out, words)?;
+    }
+    Ok(ended)
 }
 
 /// What the runs are called: the ends of their paths that tell them apart.

@@ -115,6 +115,83 @@ fn a_figure_in_another_unit_or_of_another_name_is_refused() {
     );
 }
 
+/// Two welds, one of which is too short for anything of it to have frozen.
+fn unlike_welds(folder: &Path) -> [std::path::PathBuf; 2] {
+    [("old", 8.0), ("young", 1.0)].map(|(name, end)| {
+        let at = folder.join(name);
+        std::fs::create_dir(&at).unwrap();
+        sample::weld(&at.join("pool.mcap"), end, 4, true);
+        at
+    })
+}
+
+#[test]
+fn beads_that_have_frozen_and_others_are_told_beside_the_page_of_a_sweep() {
+    let folder = folder("unlike");
+    let runs = unlike_welds(&folder);
+    let point = |run: &std::path::PathBuf| {
+        let name = run.file_name().unwrap().to_str().unwrap();
+        json!({"name": name, "values": [{"name": name, "number": null}], "failed": null,
+            "made": [{"stage": "pool", "file": run.join("pool.mcap")}]})
+    };
+    let figures =
+        json!([{"name": "depth", "unit": "m", "stage": "pool", "from": {"bead": "penetration"}}]);
+    let mut points = json!({
+        "kind": "sweep-points", "version": "1.0", "study": "welds", "title": null, "whole": [],
+        "parameters": [{"name": "weld", "unit": "1"}], "figures": figures,
+        "points": runs.iter().map(point).collect::<Vec<_>>(),
+    });
+    let told = |points: &Value| -> Vec<String> {
+        assert!(written(&folder, points).status.success());
+        let text = std::fs::read_to_string(folder.join("sweep.told.json")).unwrap();
+        serde_json::from_value(serde_json::from_str::<Value>(&text).unwrap()["told"].clone())
+            .unwrap()
+    };
+    let unlike = told(&points);
+    assert!(
+        unlike.len() == 1 && unlike[0].contains("weld young") && !unlike[0].contains("weld old"),
+        "{unlike:?}"
+    );
+    points["points"].as_array_mut().unwrap().truncate(1);
+    assert!(told(&points).is_empty());
+}
+
+#[test]
+fn a_figure_that_one_point_lacks_is_told_and_the_page_is_made() {
+    let folder = folder("lacking");
+    let mut sweep = sweep(&folder, "V");
+    std::fs::create_dir(folder.join("weld")).unwrap();
+    let weld = folder.join("weld/pool.mcap");
+    sample::weld(&weld, 1.0, 2, true);
+    sweep["points"][1]["made"] = json!([{"stage": "arc", "file": weld}]);
+    assert!(written(&folder, &sweep).status.success());
+    let text = std::fs::read_to_string(folder.join("sweep.told.json")).unwrap();
+    assert!(
+        text.contains("'voltage' is of 'arc', which is made and has none at: 200 A"),
+        "{text}"
+    );
+    assert!(!text.contains("400 A"), "a point that failed: {text}");
+}
+
+#[test]
+fn two_runs_whose_beads_are_unlike_end_with_a_warning() {
+    let folder = folder("unlike pair");
+    let [old, young] = unlike_welds(&folder);
+    let compared = |a: &Path, b: &Path| {
+        let out = folder.join("pair.html");
+        let [a, b, out] = [a, b, &out].map(|path| path.to_str().unwrap());
+        report(&["compare", "--a", a, "--b", b, "--out", out])
+    };
+    let output = compared(&old, &young);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(
+        said.contains("has frozen") && said.contains("young"),
+        "{said}"
+    );
+    assert_eq!(compared(&old, &old).status.code(), Some(0));
+}
+
 #[test]
 fn two_runs_are_compared_by_what_was_changed_numbers_pictures_and_curves() {
     let folder = folder("pair");

@@ -103,9 +103,9 @@ pub(super) fn stages(members: &[Member]) -> Vec<&str> {
     all
 }
 
-/// Says where the beads of a stage are of two kinds: medians of what has frozen, and greatest values so far.
-pub(super) fn unlike(members: &[Member]) -> String {
-    let mut out = String::new();
+/// Where the beads of a stage are of two kinds, medians of what has frozen and greatest values so far, which are not comparable.
+pub(super) fn unlike(members: &[Member]) -> Vec<String> {
+    let mut told = Vec::new();
     for stage in stages(members) {
         let beads = || {
             members
@@ -117,14 +117,19 @@ pub(super) fn unlike(members: &[Member]) -> String {
             .map(|(name, _)| name.as_str())
             .collect();
         if !young.is_empty() && beads().any(|(_, s)| s.frozen) {
-            out += &note(&format!(
+            told.push(format!(
                 "Nothing of these welds has frozen beyond its run-in: {}. Measures of their beads ('{stage}') are the greatest ones so \
                  far, those of the others are medians of a frozen stretch: they are not to be compared.",
                 young.join("; ")
             ));
         }
     }
-    out
+    told
+}
+
+/// Statements of plain text as notes.
+pub(super) fn notes(told: &[String]) -> String {
+    told.iter().map(|words| note(words)).collect()
 }
 
 /// The record of every stage under the name of its run and its own.

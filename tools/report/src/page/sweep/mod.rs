@@ -4,6 +4,7 @@ mod over;
 mod points;
 
 use run::{Failure, duration};
+use serde_json::json;
 
 use self::points::{Point, Points};
 use super::beside::{self, Member, curves, numbers, pictures};
@@ -16,7 +17,7 @@ use crate::records::{RunRecord, figure as digits};
 /// So many points stand side by side in tables of everything.
 const SIDE_BY_SIDE: usize = 12;
 
-/// Writes the page, and its table as CSV beside it.
+/// Writes the page; beside it its table as CSV, and what it tells of points that are not comparable, for `sweep`.
 pub(crate) fn write(files: &SweepFiles) -> Result<(), Failure> {
     let points = Points::read(&files.points)?;
     let mut members = Vec::new();
@@ -29,7 +30,9 @@ pub(crate) fn write(files: &SweepFiles) -> Result<(), Failure> {
     let figures = points.figures(&all)?;
     let lead = points.title.as_deref().map_or_else(String::new, paragraph);
     let mut page = Page::new(&format!("{}: sweep", points.study), &lead);
-    let body = beside::unlike(&members) + &table(&points, &members, &figures);
+    let mut unlike = beside::unlike(&members);
+    unlike.extend(points.lacking(&figures));
+    let body = beside::notes(&unlike) + &table(&points, &members, &figures);
     page.section("The points", body);
     page.section("Over what is swept", over::section(&points, &figures));
     for stage in beside::stages(&members) {
@@ -59,7 +62,10 @@ pub(crate) fn write(files: &SweepFiles) -> Result<(), Failure> {
         page.section("How it was computed", runs::section(&records));
     }
     let told = sheet(&points, &figures, &all);
-    artefact::write_atomically(&files.out.with_extension("csv"), told.text().as_bytes())?;
+    let beside = |ending: &str| files.out.with_extension(ending);
+    artefact::write_atomically(&beside("csv"), told.text().as_bytes())?;
+    let unlike = json!({"kind": "sweep-told", "version": "1.0", "told": unlike});
+    artefact::write_atomically(&beside("told.json"), format!("{unlike:#}\n").as_bytes())?;
     save(&files.out, &page.render())
 }
 

@@ -87,6 +87,11 @@ pub(super) struct Failed {
 }
 
 impl Point {
+    /// Whether the stage of a figure is made.
+    fn has(&self, figure: &Figure) -> bool {
+        self.made.iter().any(|made| made.stage == figure.stage)
+    }
+
     /// Artefacts by the names of their stages.
     pub(super) fn files(&self) -> Vec<(String, PathBuf)> {
         let made = self.made.iter();
@@ -122,10 +127,10 @@ impl Points {
     /// The value of each figure at each point, in the unit in which it is asked for.
     ///
     /// # Errors
-    /// When a point has not what is asked for, or has it in another unit and no factor is given.
+    /// When no point has what is asked for, or one has it in another unit and no factor is given.
     pub(super) fn figures(&self, all: &[Vec<Number>]) -> Result<Vec<Vec<Option<f64>>>, Failure> {
         let mut rows = Vec::new();
-        for (point, numbers) in self.points.iter().zip(all) {
+        for numbers in all {
             let mut row = Vec::new();
             for figure in &self.figures {
                 let found = figure.of(numbers).map_err(Failure::Other)?;
@@ -140,15 +145,51 @@ impl Points {
                         figure.name
                     )));
                 }
-                let there = point.made.iter().any(|made| made.stage == figure.stage);
-                if found.is_none() && there && figure.from.record.is_some() {
-                    return Err(Failure::Other(figure.missing(numbers)));
-                }
                 row.push(found);
             }
             rows.push(row);
         }
+        self.must_be_anywhere(&rows, all)?;
         Ok(rows)
+    }
+
+    /// Refuses a figure of a record that no point has whose stage is made: a name that is not right.
+    fn must_be_anywhere(
+        &self,
+        rows: &[Vec<Option<f64>>],
+        all: &[Vec<Number>],
+    ) -> Result<(), Failure> {
+        for (number, figure) in self.figures.iter().enumerate() {
+            let found = rows.iter().any(|row| row[number].is_some());
+            let made = self.points.iter().position(|point| point.has(figure));
+            if let (false, Some(point), Some(_)) = (found, made, &figure.from.record) {
+                return Err(Failure::Other(figure.missing(&all[point])));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Points {
+    /// Figures that points lack although their stages are made, such as a depth where nothing has melted.
+    pub(super) fn lacking(&self, figures: &[Vec<Option<f64>>]) -> Vec<String> {
+        let mut told = Vec::new();
+        for (number, figure) in self.figures.iter().enumerate() {
+            let lacks = |(point, row): &(&Point, &Vec<Option<f64>>)| {
+                point.has(figure) && row[number].is_none()
+            };
+            let each = self.points.iter().zip(figures);
+            let names: Vec<String> = each.filter(lacks).map(|(p, _)| self.label(p)).collect();
+            if !names.is_empty() {
+                told.push(format!(
+                    "'{}' is of '{}', which is made and has none at: {}. These points are in no curve of it.",
+                    figure.name,
+                    figure.stage,
+                    names.join("; ")
+                ));
+            }
+        }
+        told
     }
 }
 
