@@ -21,9 +21,16 @@ pub(super) fn section(reader: &Reader, scene: &Value) -> Result<Option<String>, 
     if count == 0 {
         return Ok(None);
     }
-    let mut moments = Vec::new();
-    for index in shown(count) {
-        moments.extend(Flux::read(reader, scene, index)?);
+    let shown = shown(count);
+    let (mut moments, mut melted) = (Vec::new(), Melted::default());
+    for index in 0..count {
+        let Some(moment) = Flux::read(reader, scene, index)? else {
+            continue;
+        };
+        melted.add(&moment);
+        if shown.contains(&index) {
+            moments.push(moment);
+        }
     }
     let mut body = String::new();
     for (tells, words) in [
@@ -45,7 +52,7 @@ pub(super) fn section(reader: &Reader, scene: &Value) -> Result<Option<String>, 
     if let Some(last) = moments.last() {
         body += &behind(last)?;
     }
-    Ok(Some(body + &melted(reader, scene, count)?))
+    Ok(Some(body + &melted.section()))
 }
 
 /// The last frame and as many before it at equal times, each once; the start shows nothing yet.
@@ -91,34 +98,40 @@ fn behind(last: &Flux) -> Result<String, Failure> {
     Ok(body + &figure(&plot.html(), &caption))
 }
 
-/// Masses over time, by numbers of particles.
-fn melted(reader: &Reader, scene: &Value, count: usize) -> Result<String, Failure> {
-    let mut lines = [Vec::new(), Vec::new(), Vec::new()];
-    for index in 0..count {
-        let Some(flux) = Flux::read(reader, scene, index)? else {
-            continue;
-        };
+/// Numbers of particles over time: slag, frozen slag, liquid metal.
+#[derive(Default)]
+struct Melted {
+    lines: [Vec<[f64; 2]>; 3],
+}
+
+impl Melted {
+    /// Counts a moment.
+    fn add(&mut self, flux: &Flux) {
         let (slag, all) = (flux.number(SLAG), flux.state.len());
         let frozen = all - slag - flux.number(POWDER);
         let liquid = flux.weld.liquid.iter().filter(|l| **l).count();
-        for (line, value) in lines.iter_mut().zip([slag, frozen, liquid]) {
+        for (line, value) in self.lines.iter_mut().zip([slag, frozen, liquid]) {
             line.push([flux.weld.time, value as f64]);
         }
     }
-    let mut plot = Plot::new("time [s]", "particles").through(0.0);
-    for (name, points) in ["slag", "frozen slag", "liquid metal"]
-        .into_iter()
-        .zip(lines)
-    {
-        plot.add(Line::new(name, points).marked());
+
+    /// The plot; nothing where nothing was counted.
+    fn section(self) -> String {
+        let mut plot = Plot::new("time [s]", "particles").through(0.0);
+        for (name, points) in ["slag", "frozen slag", "liquid metal"]
+            .into_iter()
+            .zip(self.lines)
+        {
+            plot.add(Line::new(name, points).marked());
+        }
+        if plot.is_empty() {
+            return String::new();
+        }
+        figure(
+            &plot.html(),
+            "How much is slag, has set again, and is liquid metal. Slag comes first: light strikes the wall of the cavity.",
+        )
     }
-    if plot.is_empty() {
-        return Ok(String::new());
-    }
-    Ok(figure(
-        &plot.html(),
-        "How much is slag, has set again, and is liquid metal. Slag comes first: light strikes the wall of the cavity.",
-    ))
 }
 
 #[cfg(test)]
