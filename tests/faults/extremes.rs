@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 use verification::bell::WELD;
 
-use crate::workplace::{Place, program};
+use crate::workplace::{Place, Told, program, root, told};
 
 /// Steps of each run.
 const STEPS: f64 = 3.0;
@@ -104,4 +104,23 @@ fn a_drop_with_any_number_at_its_extremes() {
 #[test]
 fn a_weld_with_any_number_at_its_extremes() {
     each_number_at(&[1e-300, 1e300], "resume/weld.json", true);
+}
+
+/// A column of gas whose residuals may end the iteration by `iterate`.
+fn column(iterate: &Value) -> Told {
+    let scene = root().join("pipelines/verify/arc-column/scene.json");
+    let place = Place::new();
+    let patch = place.file("patch.json", json!({"iterate": iterate}).to_string());
+    let (mut command, out) = (Command::new(program("arcfvm")), place.path("column.mcap"));
+    command.arg("run").arg(scene).arg("--patch").arg(patch);
+    told(command.arg("--out").arg(out).args(["--threads", "1", "-q"]))
+}
+
+#[test]
+fn an_arc_that_a_loose_limit_ends_is_told_as_not_converged() {
+    column(&json!({"tolerance": 1e-6})).must(0, &[]);
+    let words = ["not converged", "of its scale", "iterate/tolerance"];
+    column(&json!({"tolerance": 0.1})).must(3, &words);
+    let watts = json!({"tolerance": 1e-6, "stop": {"heat_w": 1e9, "charge_a": 1e9}});
+    column(&watts).must(3, &words);
 }

@@ -49,6 +49,18 @@ fn run(command: &str, scene: &Value) -> (Option<i32>, Vec<f64>, String) {
 }
 
 #[test]
+fn a_steady_state_that_a_loose_tolerance_ends_is_told_as_not_converged() {
+    let ended = |tolerance: f64| {
+        let mut scene = bar(&json!(300.0));
+        scene["steady"] = json!({"tolerance": tolerance});
+        let (code, _, said) = run("run", &scene);
+        (code, said.contains("not converged"))
+    };
+    assert_eq!(ended(1e-9), (Some(0), false));
+    assert_eq!(ended(1e-2), (Some(3), true));
+}
+
+#[test]
 fn a_radiating_bar_is_found_from_any_guess() {
     let cold = (1000.0 / 5.670_374_419e-8_f64).powf(0.25);
     for guess in [1e-6, 1e-3, 1.0, 2.7, 10.0, 300.0, 3e3, 1e6, 1e12] {

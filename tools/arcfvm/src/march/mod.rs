@@ -117,6 +117,9 @@ pub fn march(arc: &mut Arc, rule: &Iterate, session: &mut Session) -> Result<(),
         });
         if done {
             session.steps(arc.iteration as u64);
+            if let Some(told) = last.loose() {
+                session.warn(told);
+            }
             return Ok(());
         }
         course.act(arc, &last, session);

@@ -11,7 +11,8 @@ pub struct Iterate {
     /// Most iterations.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub most: usize,
-    /// The iteration has converged when every residual is below this part of its scale: of force, mass flow, power, current.
+    /// The iteration has converged when every residual is below this part of its scale: of force, mass flow, power, current. What
+    /// ends above 1e-3 is told as not converged.
     #[schemars(range(min = 1e-14, max = 0.1))]
     pub tolerance: f64,
     /// Limits of single equations in their own units, in place of the tolerance.

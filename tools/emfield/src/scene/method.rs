@@ -92,7 +92,7 @@ pub struct Solver {
     pub way: Way,
     /// Largest residual at which the iteration ends, relative to the residual of a solution of zeros.
     #[serde(default = "tolerance")]
-    #[schemars(range(min = 1e-15, max = 1e-2), extend("x-unit" = "1"))]
+    #[schemars(range(min = 1e-15, max = 1e-3), extend("x-unit" = "1"))]
     pub tolerance: f64,
     /// Greatest number of iterations.
     #[serde(default = "iterations")]
