@@ -26,7 +26,7 @@ const NUMERICS: [&str; 12] = [
     "torch",
     "steps",
 ];
-const HARNESS: [&str; 3] = ["artefact", "run", "columns"];
+const HARNESS: [&str; 4] = ["artefact", "run", "columns", "figures"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -48,10 +48,25 @@ fn allowed(from: &str) -> BTreeSet<&'static str> {
         "artefact" => &["manual"],
         "run" => &["artefact", "manual"],
         "columns" => &["artefact", "particles"],
-        "fuzz" => &["artefact"],
-        "report" => &["artefact", "manual", "neighbours", "run", "torch"],
-        "sweep" => &["artefact", "manual", "run"],
-        "verification" => &["artefact", "kernels", "neighbours", "relax", "run", "wls"],
+        "figures" | "fuzz" => &["artefact"],
+        "report" => &[
+            "artefact",
+            "figures",
+            "manual",
+            "neighbours",
+            "run",
+            "torch",
+        ],
+        "sweep" => &["artefact", "figures", "manual", "run"],
+        "verification" => &[
+            "artefact",
+            "figures",
+            "kernels",
+            "neighbours",
+            "relax",
+            "run",
+            "wls",
+        ],
         _ => return NUMERICS.iter().chain(&HARNESS).copied().collect(),
     };
     set.iter().copied().collect()

@@ -3,12 +3,10 @@
 use std::path::Path;
 use std::process::Command;
 
-use artefact::Reader;
 use serde_json::Value;
 
-use super::course;
-use super::plan::{Figure, From};
-use crate::lab::{Lab, LabError, read_json};
+use super::plan::Figure;
+use crate::lab::{Lab, LabError};
 
 /// What an artefact tells of a figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,9 +23,9 @@ pub struct Reading {
 /// When the artefact does not hold it, or what it holds is no number.
 pub fn read(lab: &Lab, figure: &Figure, artefact: &Path) -> Result<Reading, LabError> {
     let reading = match &figure.from {
-        From::Bead(measure) => bead(lab, measure, artefact)?,
-        _ => Reading {
-            value: of_file(figure, artefact)?,
+        figures::From::Bead(measure) => bead(lab, measure, artefact)?,
+        from => Reading {
+            value: from.read(artefact)?.value,
             frozen: None,
         },
     };
@@ -46,112 +44,6 @@ fn judged(figure: &Figure, artefact: &Path, reading: Reading) -> Result<Reading,
             Err(missing(artefact, what))
         }
     }
-}
-
-/// The value of a figure that an artefact, or the record beside it, holds.
-fn of_file(figure: &Figure, artefact: &Path) -> Result<f64, LabError> {
-    let open = || Reader::open(artefact);
-    match &figure.from {
-        From::Record { channel, value } => {
-            let reader = open()?;
-            let last = reader.count(channel).saturating_sub(1);
-            Ok(reader.record_at(channel, last)?.get(value)?)
-        }
-        From::Mean {
-            channel,
-            value,
-            from_s,
-            until_s,
-        } => {
-            let during = *from_s..=until_s.unwrap_or(f64::INFINITY);
-            Ok(course::mean(
-                &course::of(&open()?, channel, value)?,
-                &during,
-            ))
-        }
-        From::FallsBelow {
-            channel,
-            value,
-            limit,
-        } => {
-            let course = course::of(&open()?, channel, value)?;
-            let never = || missing(artefact, format!("'{value}' never falls below {limit}"));
-            course::falls_below(&course, *limit).ok_or_else(never)
-        }
-        From::Period { channel, value } => {
-            let course = course::of(&open()?, channel, value)?;
-            let never = || missing(artefact, format!("'{value}' does not swing to and fro"));
-            course::period(&course).ok_or_else(never)
-        }
-        From::Greatest { channel, column } => greatest(&open()?, channel, column),
-        From::Closing(name) => closing(artefact, name),
-        From::Bead(measure) => Err(missing(
-            artefact,
-            format!("'{measure}' is a measure of a bead"),
-        )),
-        From::Point {
-            channel,
-            column,
-            component,
-            at_m,
-        } => {
-            let wanted = Column {
-                channel,
-                column,
-                component: *component,
-            };
-            at_point(artefact, &wanted, at_m)
-        }
-    }
-}
-
-/// The greatest value of a column of the last table; below all numbers where it is empty.
-fn greatest(reader: &Reader, channel: &str, column: &str) -> Result<f64, LabError> {
-    let table = reader.table_at(channel, reader.count(channel).saturating_sub(1))?;
-    let values = table.values(column)?.iter().copied();
-    Ok(values.fold(f64::NEG_INFINITY, f64::max))
-}
-
-/// A column of the last frame at the point that stands at a place.
-fn at_point(artefact: &Path, wanted: &Column<'_>, at_m: &[f64; 3]) -> Result<f64, LabError> {
-    let channel = wanted.channel;
-    let reader = Reader::open(artefact)?;
-    let frame = reader.frame(channel, reader.count(channel).saturating_sub(1))?;
-    let places = frame.position_vectors()?;
-    let apart = |p: &[f64; 3]| (0..3).map(|k| (p[k] - at_m[k]).powi(2)).sum::<f64>().sqrt();
-    let nearest =
-        (0..places.len()).min_by(|a, b| apart(&places[*a]).total_cmp(&apart(&places[*b])));
-    let size = places.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let here = nearest.filter(|i| apart(&places[*i]) <= 1e-6 * size);
-    let nowhere = || {
-        missing(
-            artefact,
-            format!("no point of {channel} stands at {at_m:?} m"),
-        )
-    };
-    let here = here.ok_or_else(nowhere)?;
-    let found = match frame.vectors(wanted.column) {
-        Ok(vectors) => vectors[here].get(wanted.component).copied(),
-        Err(_) => frame.f64(wanted.column)?.get(here).copied(),
-    };
-    found.ok_or_else(nowhere)
-}
-
-/// A component of a column of a channel.
-struct Column<'a> {
-    channel: &'a str,
-    column: &'a str,
-    component: usize,
-}
-
-/// A closing value of the run record beside an artefact.
-fn closing(artefact: &Path, name: &str) -> Result<f64, LabError> {
-    let record = artefact.with_extension("run.json");
-    let told = read_json(&record)?;
-    let values = told["closing"].as_array().into_iter().flatten();
-    let own = values.filter(|value| value["name"] == name);
-    let value = own.filter_map(|value| value["value"].as_f64()).next_back();
-    value.ok_or_else(|| missing(&record, format!("it closes without '{name}'")))
 }
 
 fn missing(path: &Path, what: String) -> LabError {

@@ -5,11 +5,10 @@
 //! by chance alone give a scatter apart from it. The least run that meets a tolerance is named with its patch.
 //!
 //! - [`plan`] is what `pipelines/STUDY/certify.json` says, [`runs`] makes its points (cheap ones first, within a budget, taken up
-//!   again where they were left), [`figures`] reads numbers from what they wrote ([`course`] those of a course in time), [`verdict`] puts the record together;
+//!   again where they were left), [`figures`] reads numbers from what they wrote, [`verdict`] puts the record together;
 //! - [`proof`] is the same over cases whose answers are exact: how often the true value lies in the band.
 
 pub mod band;
-pub mod course;
 pub mod figures;
 pub mod plan;
 mod point;

@@ -83,72 +83,8 @@ pub struct Figure {
     pub unit: String,
     /// The stage whose artefact holds it.
     pub stage: String,
-    /// Where in the artefact.
-    pub from: From,
-}
-
-/// Where a figure stands in an artefact.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum From {
-    /// A value of the last record of a channel.
-    Record {
-        /// Channel.
-        channel: String,
-        /// Name of the value.
-        value: String,
-    },
-    /// The mean of a value over the records of a channel between two times.
-    Mean {
-        /// Channel.
-        channel: String,
-        /// Name of the value.
-        value: String,
-        /// From when on.
-        from_s: f64,
-        /// Until when; the end where it is not said.
-        #[serde(default)]
-        until_s: Option<f64>,
-    },
-    /// The time at which a value falls below a limit for the first time.
-    FallsBelow {
-        /// Channel.
-        channel: String,
-        /// Name of the value.
-        value: String,
-        /// The limit, in the unit of the value.
-        limit: f64,
-    },
-    /// The period of a value that swings, by its turning points.
-    Period {
-        /// Channel.
-        channel: String,
-        /// Name of the value.
-        value: String,
-    },
-    /// The greatest value of a column of a table.
-    Greatest {
-        /// Channel.
-        channel: String,
-        /// Name of the column.
-        column: String,
-    },
-    /// A closing value of the run record.
-    Closing(String),
-    /// A measure of the bead at the end of a weld, as `report figures` tells it.
-    Bead(String),
-    /// A column of the last frame of a channel at the point that stands at a place.
-    Point {
-        /// Channel.
-        channel: String,
-        /// Name of the column.
-        column: String,
-        /// Component of a vector; 0 for a scalar.
-        #[serde(default)]
-        component: usize,
-        /// The place, where every size of the knobs must have a point.
-        at_m: [f64; 3],
-    },
+    /// Where in what the stage wrote.
+    pub from: figures::From,
 }
 
 /// What the figures hang on.

@@ -49,10 +49,6 @@ fn faults(sweep: &Sweep, root: &Path) -> Vec<Fault> {
         all.extend(
             unknown(&figure.stage, &names, "stage").map(|w| Fault::at(&format!("{at}/stage"), w)),
         );
-        if figure.from.record.is_some() == figure.from.bead.is_some() {
-            let what = "must have one of \"record\" and \"bead\"";
-            all.push(Fault::at(&format!("{at}/from"), what));
-        }
         if figure
             .factor
             .is_some_and(|f| !f.is_finite() || f.abs() < f64::MIN_POSITIVE)

@@ -158,30 +158,8 @@ pub(crate) struct Figure {
     pub(crate) factor: Option<f64>,
     /// The stage whose artefact holds it.
     pub(crate) stage: String,
-    /// Where it stands in the artefact.
-    pub(crate) from: From,
-}
-
-/// Where a figure stands: one of the two.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct From {
-    /// A value of the last record of a channel.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) record: Option<Recorded>,
-    /// A measure of the bead at the end of a weld, as `report figures` names it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(crate) bead: Option<String>,
-}
-
-/// A value of a record.
-#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Recorded {
-    /// Channel.
-    pub(crate) channel: String,
-    /// Name of the value.
-    pub(crate) value: String,
+    /// Where it stands in what the stage wrote.
+    pub(crate) from: figures::From,
 }
 
 #[cfg(test)]

@@ -115,6 +115,41 @@ fn a_figure_in_another_unit_or_of_another_name_is_refused() {
     );
 }
 
+#[test]
+fn a_sweep_tells_whatever_figures_a_run_wrote() {
+    let folder = folder("greatest");
+    let mut greatest = sweep(&folder, "V");
+    let from = json!({"greatest": {"channel": "/surface", "column": "arc_pressure_pa"}});
+    greatest["figures"][0] =
+        json!({"name": "pressure", "unit": "Pa", "stage": "arc", "from": from});
+    let output = written(&folder, &greatest);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{said}");
+    let table = std::fs::read_to_string(folder.join("sweep.csv")).unwrap();
+    let second = table.lines().nth(2).unwrap();
+    let told: f64 = second.split(',').nth(2).unwrap().parse().unwrap();
+    let reader = artefact::Reader::open(&folder.join("200.mcap")).unwrap();
+    let column = reader.table_at("/surface", 0).unwrap();
+    let values = column.values("arc_pressure_pa").unwrap();
+    let most = values.iter().copied().fold(0.0, f64::max);
+    assert!((told / most - 1.0).abs() < 1e-6, "{table}");
+    for (key, value, words) in [
+        ("unit", json!("kPa"), "say \"factor\""),
+        (
+            "from",
+            json!({"greatest": {"channel": "/surface", "column": "pressure"}}),
+            "'pressure'",
+        ),
+        ("from", json!({"closing": "pressure"}), "pressure"),
+    ] {
+        let mut other = greatest.clone();
+        other["figures"][0][key] = value;
+        let output = written(&folder, &other);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success() && said.contains(words), "{said}");
+    }
+}
+
 /// Two welds, one of which is too short for anything of it to have frozen.
 fn unlike_welds(folder: &Path) -> [std::path::PathBuf; 2] {
     [("old", 8.0), ("young", 1.0)].map(|(name, end)| {

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use ::figures::From;
 use run::Failure;
 use serde::Deserialize;
 
@@ -45,18 +46,6 @@ pub(super) struct Figure {
     from: From,
 }
 
-#[derive(Debug, Clone, Deserialize)]
-struct From {
-    record: Option<Recorded>,
-    bead: Option<String>,
-}
-
-#[derive(Debug, Clone, Deserialize)]
-struct Recorded {
-    channel: String,
-    value: String,
-}
-
 /// A point.
 #[derive(Debug, Clone, Deserialize)]
 pub(super) struct Point {
@@ -97,6 +86,12 @@ impl Point {
         let made = self.made.iter();
         made.map(|m| (m.stage.clone(), m.file.clone())).collect()
     }
+
+    /// The artefact of a stage, where it is made.
+    fn file(&self, stage: &str) -> Option<&Path> {
+        let own = self.made.iter().find(|made| made.stage == stage);
+        own.map(|made| made.file.as_path())
+    }
 }
 
 impl Points {
@@ -130,30 +125,15 @@ impl Points {
     /// When no point has what is asked for, or one has it in another unit and no factor is given.
     pub(super) fn figures(&self, all: &[Vec<Number>]) -> Result<Vec<Vec<Option<f64>>>, Failure> {
         let mut rows = Vec::new();
-        for numbers in all {
-            let mut row = Vec::new();
-            for figure in &self.figures {
-                let found = figure.of(numbers).map_err(Failure::Other)?;
-                if let Some(name) = figure
-                    .from
-                    .bead
-                    .as_deref()
-                    .filter(|name| !figures::known(name))
-                {
-                    return Err(Failure::Other(format!(
-                        "figure '{}': no measure of a weld is called '{name}'",
-                        figure.name
-                    )));
-                }
-                row.push(found);
-            }
-            rows.push(row);
+        for (point, numbers) in self.points.iter().zip(all) {
+            let of = |figure: &Figure| figure.of(point, numbers).map_err(Failure::Other);
+            rows.push(self.figures.iter().map(of).collect::<Result<_, _>>()?);
         }
         self.must_be_anywhere(&rows, all)?;
         Ok(rows)
     }
 
-    /// Refuses a figure of a record that no point has whose stage is made: a name that is not right.
+    /// Refuses a figure, but of a bead, that no point has whose stage is made: a name that is not right.
     fn must_be_anywhere(
         &self,
         rows: &[Vec<Option<f64>>],
@@ -162,8 +142,10 @@ impl Points {
         for (number, figure) in self.figures.iter().enumerate() {
             let found = rows.iter().any(|row| row[number].is_some());
             let made = self.points.iter().position(|point| point.has(figure));
-            if let (false, Some(point), Some(_)) = (found, made, &figure.from.record) {
-                return Err(Failure::Other(figure.missing(&all[point])));
+            if let (false, Some(point)) = (found, made)
+                && let Some(what) = figure.missing(&self.points[point], &all[point])
+            {
+                return Err(Failure::Other(what));
             }
         }
         Ok(())
@@ -194,44 +176,68 @@ impl Points {
 }
 
 impl Figure {
-    /// Channel and name of its value.
-    fn place(&self) -> (&str, &str) {
-        match (&self.from.record, &self.from.bead) {
-            (Some(record), _) => (&record.channel, &record.value),
-            (None, bead) => (BEAD, bead.as_deref().unwrap_or_default()),
-        }
-    }
-
-    fn of(&self, numbers: &[Number]) -> Result<Option<f64>, String> {
-        let (channel, name) = self.place();
-        let own = |n: &&Number| n.stage == self.stage && n.channel == channel && n.name == name;
-        let Some(number) = numbers.iter().find(own) else {
+    /// Its value at a point in the unit in which it is asked for; none where the point has it not.
+    fn of(&self, point: &Point, numbers: &[Number]) -> Result<Option<f64>, String> {
+        let Some((value, unit)) = self.found(point, numbers)? else {
             return Ok(None);
         };
         match self.factor {
             // A factor of powers of ten leaves no tail of digits.
-            Some(factor) => Ok(Some(rounded(factor * number.value, 15))),
-            None if number.unit == self.unit => Ok(Some(number.value)),
-            None => Err(format!(
-                "figure '{}' is asked for in '{}', and {name} of {channel} is in '{}': say \"factor\", by which it becomes so",
-                self.name, self.unit, number.unit
-            )),
+            Some(factor) => Ok(Some(rounded(factor * value, 15))),
+            None if unit == self.unit => Ok(Some(value)),
+            None => {
+                let (channel, name) = self.from.place();
+                Err(format!(
+                    "figure '{}' is asked for in '{}', and {name} of {channel} is in '{unit}': say \"factor\", by which it becomes so",
+                    self.name, self.unit
+                ))
+            }
         }
     }
 
-    fn missing(&self, numbers: &[Number]) -> String {
-        let (channel, name) = self.place();
+    /// Its value as the point has it, with the unit.
+    fn found(&self, point: &Point, numbers: &[Number]) -> Result<Option<(f64, String)>, String> {
+        let (channel, name) = match &self.from {
+            From::Record { channel, value } => (channel.as_str(), value.as_str()),
+            From::Bead(measure) if !figures::known(measure) => {
+                return Err(format!(
+                    "figure '{}': no measure of a weld is called '{measure}'",
+                    self.name
+                ));
+            }
+            From::Bead(measure) => (BEAD, measure.as_str()),
+            other => {
+                let read = point.file(&self.stage).map(|file| other.read(file));
+                let found = read.and_then(Result::ok);
+                return Ok(found.map(|reading| (reading.value, reading.unit)));
+            }
+        };
+        let own = |n: &&Number| n.stage == self.stage && n.channel == channel && n.name == name;
+        let number = numbers.iter().find(own);
+        Ok(number.map(|number| (number.value, number.unit.clone())))
+    }
+
+    /// Why a point whose stage is made has it not; nothing of a bead, which only what has melted has.
+    fn missing(&self, point: &Point, numbers: &[Number]) -> Option<String> {
+        let (channel, name) = match &self.from {
+            From::Record { channel, value } => (channel, value),
+            From::Bead(_) => return None,
+            other => {
+                let what = other.read(point.file(&self.stage)?).err()?;
+                return Some(format!("figure '{}': {what}", self.name));
+            }
+        };
         let own = numbers
             .iter()
-            .filter(|n| n.stage == self.stage && n.channel == channel);
+            .filter(|n| n.stage == self.stage && n.channel == *channel);
         let known: Vec<&str> = own.map(|n| n.name.as_str()).collect();
         let meant = run::scene::nearest(name, &known);
         let meant = meant.map_or(String::new(), |n| format!("; did you mean '{n}'?"));
-        format!(
+        Some(format!(
             "figure '{}': stage '{}' has no '{name}' in {channel}, which holds {}{meant}",
             self.name,
             self.stage,
             known.join(", ")
-        )
+        ))
     }
 }
