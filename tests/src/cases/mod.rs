@@ -89,6 +89,7 @@ mod pool_dimple;
 mod pool_drop_oscillation;
 mod pool_drop_pressure;
 mod pool_hydrostatic;
+mod pool_plate;
 mod pool_rosenthal;
 mod pool_similar;
 mod pool_stefan;
@@ -163,6 +164,7 @@ fn pools() -> Vec<Box<dyn Case>> {
         Box::new(pool_drop_oscillation::PoolDropOscillation),
         Box::new(pool_drop_pressure::PoolDropPressure),
         Box::new(pool_hydrostatic::PoolHydrostatic),
+        Box::new(pool_plate::PoolPlate),
         Box::new(pool_rosenthal::PoolRosenthal),
         Box::new(pool_similar::PoolSimilar),
         Box::new(pool_stefan::PoolStefan),

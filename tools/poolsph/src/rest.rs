@@ -3,19 +3,23 @@
 //! A particle rests while it is solid or held, or liquid before the flow starts. Its distances to other
 //! resting particles never change, so rows and kernel values are kept and only the rows around a
 //! particle that changes its part are touched. Rows are ascending in index: they follow from the
-//! membership alone, and a resumed run repeats them.
+//! membership and the start alone, and a resumed run repeats them.
 //!
 //! Beside flat faces a row is completed by mirror images. The pair (a, b) then has the weight
 //! `sum of W(|x_a - image of x_b|)` over b and its images in the named planes, which is symmetric
 //! in a and b: conduction along a flat face is as in the inside, and across it nothing flows.
-//! Only particles that have never moved take part; a mirror would be wrong for a bead.
+//! Only particles that have never moved take part; a mirror would be wrong for a bead. Beside free faces that no scene names
+//! weights are raised for what flows along them ([`cut`]).
+
+mod cut;
 
 use std::collections::BTreeMap;
 
 use kernels::CubicSpline;
 use particles::POSITION;
-use shapes::frame::distance;
+use shapes::frame::{difference, distance};
 
+use self::cut::{Cuts, Standing};
 use crate::state::{DROPLET, FUSED, LIQUID, PHASE, State, marked, phase};
 
 /// A plane across an axis.
@@ -54,18 +58,23 @@ enum Part {
 pub struct Rest {
     kernel: Option<CubicSpline<3>>,
     mirrors: Vec<Plane>,
+    /// All named faces.
+    faces: Vec<Plane>,
     part: Vec<Part>,
+    /// Those that rested at the start beside faces without a name; none before the start.
+    cuts: Option<Cuts>,
     cells: BTreeMap<[i32; 3], Vec<u32>>,
     rows: Vec<Vec<Link>>,
     changed: Vec<u32>,
 }
 
 impl Rest {
-    /// No rows yet; `mirrors` are the flat faces.
+    /// No rows yet; `mirrors` are the flat faces that complete rows, `open` those that the metal goes on behind.
     #[must_use]
-    pub fn new(smoothing_length: f64, mirrors: Vec<Plane>) -> Self {
+    pub fn new(smoothing_length: f64, mirrors: Vec<Plane>, open: &[Plane]) -> Self {
         Self {
             kernel: Some(CubicSpline::new(smoothing_length)),
+            faces: [&mirrors, open].concat(),
             mirrors,
             ..Self::default()
         }
@@ -95,7 +104,8 @@ impl Rest {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let links: usize = self.rows.iter().map(Vec::capacity).sum();
-        16 * links + 25 * self.rows.len()
+        let cuts = self.cuts.as_ref().map_or(0, Cuts::bytes);
+        16 * links + 25 * self.rows.len() + cuts
     }
 
     /// Takes in who has begun or ceased to rest.
@@ -119,26 +129,54 @@ impl Rest {
                 self.leave(places, a);
             }
         }
+        if self.cuts.is_none() {
+            self.complete(places);
+        }
         self.changed.sort_unstable();
         self.changed.dedup();
     }
 
-    /// Parts as numbers, for a checkpoint.
+    /// Raises the weights of what rests at the start beside faces without a name.
+    fn complete(&mut self, places: &[[f64; 3]]) {
+        let Some(kernel) = self.kernel else { return };
+        let standing = Standing {
+            places,
+            faces: &self.faces,
+            reach: kernel.support(),
+        };
+        let cuts = Cuts::of(&self.rows, &standing);
+        if !cuts.is_empty() {
+            for (a, row) in self.rows.iter_mut().enumerate() {
+                for link in row {
+                    let b = link.to as usize;
+                    link.weight *= cuts.factor(a, b, difference(places[a], places[b]));
+                }
+            }
+        }
+        self.cuts = Some(cuts);
+    }
+
+    /// How many parts, the parts, and the cut sums, as numbers, for a checkpoint.
     #[must_use]
     pub fn save(&self) -> Vec<f64> {
-        self.part
-            .iter()
-            .map(|part| f64::from(*part as u8))
-            .collect()
+        let parts = self.part.iter().map(|part| f64::from(*part as u8));
+        let cuts = self.cuts.iter().flat_map(Cuts::save);
+        let count = std::iter::once(self.part.len() as f64);
+        count.chain(parts).chain(cuts).collect()
     }
 
     /// Builds the rows of the parts that [`Rest::save`] gave.
     pub fn restore(&mut self, state: &State, saved: &[f64]) {
-        self.rows = vec![Vec::new(); saved.len()];
-        self.part = vec![Part::Away; saved.len()];
+        let Some((count, saved)) = saved.split_first() else {
+            return;
+        };
+        let (parts, cuts) = saved.split_at((*count as usize).min(saved.len()));
+        self.rows = vec![Vec::new(); parts.len()];
+        self.part = vec![Part::Away; parts.len()];
+        self.cuts = Some(Cuts::restored(cuts));
         self.cells.clear();
         let places = state.metal.column(&POSITION);
-        for (a, part) in saved.iter().enumerate() {
+        for (a, part) in parts.iter().enumerate() {
             match *part as u8 {
                 1 => self.enter(places, a, Part::Pristine),
                 2 => self.enter(places, a, Part::Settled),
@@ -153,12 +191,7 @@ impl Rest {
         self.part[a] = part;
         let cell = cell(places[a], kernel.support());
         let mut row = Vec::with_capacity(26);
-        for k in 0..27 {
-            let near = [
-                cell[0] + k % 3 - 1,
-                cell[1] + k / 3 % 3 - 1,
-                cell[2] + k / 9 - 1,
-            ];
+        for near in around(cell) {
             for &b in self.cells.get(&near).map_or(&[][..], Vec::as_slice) {
                 let weight = self.weight(places, a, b as usize, kernel);
                 if weight > 0.0 {
@@ -218,13 +251,22 @@ impl Rest {
             }
             sum += kernel.value(distance(at, image));
         }
-        sum
+        match self.cuts.as_ref().filter(|cuts| !cuts.is_empty()) {
+            Some(cuts) => sum * cuts.factor(a, b, difference(at, to)),
+            None => sum,
+        }
     }
 }
 
 /// A particle rests while it is solid or held, or liquid before the flow starts.
 fn rests(phase: u8, flowing: bool) -> bool {
     matches!(phase, phase::SOLID | phase::HELD) || (phase == phase::LIQUID && !flowing)
+}
+
+/// A cell and those beside it.
+fn around(cell: [i32; 3]) -> impl Iterator<Item = [i32; 3]> {
+    let beside = |k: i32| [k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1];
+    (0..27).map(move |k| std::array::from_fn(|axis| cell[axis] + beside(k)[axis]))
 }
 
 /// Cell of a place; a search looks into 27 of them.
@@ -266,7 +308,7 @@ mod tests {
         let state = block();
         let plane = |axis, at, outward| Plane { axis, at, outward };
         let faces = (0..3).flat_map(|axis| [plane(axis, 0.0, -1.0), plane(axis, 6.0, 1.0)]);
-        let mut rest = Rest::new(1.0, faces.collect());
+        let mut rest = Rest::new(1.0, faces.collect(), &[]);
         rest.update(&state);
         // The sum of r^2 W along x is the same for the corner as for the middle.
         let moment = |a: usize| -> f64 {
@@ -290,19 +332,31 @@ mod tests {
     fn rows_after_changes_are_those_of_a_fresh_start() {
         let mut state = block();
         state.flowing = true;
-        let mut rest = Rest::new(1.0, Vec::new());
-        rest.update(&state);
+        let plane = |axis, at, outward| Plane { axis, at, outward };
+        let faces = (0..3).flat_map(|axis| [plane(axis, 0.0, -1.0), plane(axis, 6.0, 1.0)]);
+        let faces: Vec<Plane> = faces.collect();
+        // With free faces rows know the start too.
+        for faces in [&faces[..], &[]] {
+            after_changes(&mut state, faces);
+        }
+    }
+
+    fn after_changes(state: &mut State, faces: &[Plane]) {
+        let new = || Rest::new(1.0, faces.to_vec(), &[]);
+        state.metal.column_mut(&PHASE)[80] = phase::SOLID;
+        let mut rest = new();
+        rest.update(state);
         state.metal.column_mut(&PHASE)[80] = phase::LIQUID;
-        rest.update(&state);
+        rest.update(state);
         assert!(!rest.holds(80) && rest.row(80).is_empty());
         assert!(rest.changed().contains(&80) && rest.changed().len() > 6);
-        let mut fresh = Rest::new(1.0, Vec::new());
-        fresh.update(&state);
+        let mut fresh = new();
+        fresh.update(state);
         let saved = rest.save();
-        let mut resumed = Rest::new(1.0, Vec::new());
-        resumed.restore(&state, &saved);
+        let mut resumed = new();
+        resumed.restore(state, &saved);
         for a in 0..state.len() {
-            assert_eq!(rest.row(a), fresh.row(a));
+            assert!(faces.is_empty() || rest.row(a) == fresh.row(a));
             assert_eq!(rest.row(a), resumed.row(a));
         }
     }

@@ -7,7 +7,8 @@
 //! 1. lambda N = sum r^2 W (eqs. 3.96, 3.97) is that of the full lattice for every particle. What
 //!    a gains b then loses to the last bit, so energy is kept to round-off; a sum cut off by the
 //!    surface lets nothing through it, and a flat face completed by mirror images conducts along
-//!    itself as the inside does. With each particle's own lambda N neither would hold.
+//!    itself as the inside does. With each particle's own lambda N neither would hold. Free faces without a name
+//!    are completed for metal that rests from the start on ([`crate::rest`]).
 //! 2. The 1/rho of eq. 3.98 belongs to the equation of motion alone. The mean of the
 //!    conductivities is the harmonic one, exact for layers in series; eq. 4.10 has the arithmetic.
 //! 3. Pairs at rest keep their rows ([`crate::rest`]) and may be taken together every few steps;
@@ -131,7 +132,7 @@ impl Conduction {
             limit: metal.density * second / (6.0 * CROWDING * caloric.fastest() * zeroth),
             interval: u64::from(parameters.rest_interval_steps.max(1)),
             tolerance: parameters.exchange_tolerance_k,
-            rest: Rest::new(metal.smoothing_length, mirrors),
+            rest: Rest::new(metal.smoothing_length, mirrors, &open),
             open: Open::new(open, metal.spacing, parameters),
             held: Vec::new(),
             thermal: Vec::new(),
