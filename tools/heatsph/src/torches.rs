@@ -19,6 +19,8 @@ const PART: f64 = 0.25;
 const LOOKS: usize = 100;
 /// Share of a distribution below which it is told how little lies inside.
 const LITTLE: f64 = 0.95;
+/// Part of its energy that a torch may lose untold.
+const LOST: f64 = 0.01;
 /// Shares below this are none.
 const NONE: f64 = 1e-12;
 
@@ -44,7 +46,9 @@ pub struct Inside {
     pub most: f64,
     /// Greatest spacing of the points that took most \[m\].
     pub spacing: f64,
-    /// Energy that was not given to the body, about \[J\].
+    /// Energy of the torch \[J\].
+    pub energy: f64,
+    /// Of that not given to the body, about \[J\].
     pub lost: f64,
 }
 
@@ -180,6 +184,7 @@ impl Torches {
                 least: 1.0,
                 most: 0.0,
                 spacing: 0.0,
+                energy: 0.0,
                 lost: 0.0,
             };
             for look in 0..LOOKS {
@@ -193,6 +198,7 @@ impl Torches {
                 inside.spacing = inside.spacing.max(spacing);
                 inside.least = inside.least.min(share);
                 inside.most = inside.most.max(share);
+                inside.energy += energy;
                 inside.lost += energy * (1.0 - part(torch, share) * share);
             }
             (span > 0.0).then_some(inside)
@@ -236,19 +242,22 @@ impl Torches {
         all.into_iter().flatten().collect()
     }
 
-    /// What is to be told where less than all of a distribution lay inside.
+    /// What is to be told where less than all of a distribution lay inside, or where energy was lost.
     fn little(&self, number: usize, inside: Inside) -> Option<String> {
-        let percent = 100.0 * inside.least;
-        let at =
-            format!("torches/{number}: as little as {percent:.1} % of its heat lies in the body");
+        let Inside { energy, lost, .. } = inside;
+        let at = format!(
+            "torches/{number}: as little as {:.1} % of its heat lies in the body",
+            100.0 * inside.least
+        );
         match self.torches[number].beyond {
-            _ if inside.least >= LITTLE => None,
-            Beyond::Lost => Some(format!("{at}; about {:.4e} J are lost", inside.lost)),
-            Beyond::Inside if inside.least <= NONE => Some(format!(
-                "{at}: it has nothing to heat there, and about {:.4e} J are lost",
-                inside.lost
+            _ if lost <= LOST * energy && inside.least >= LITTLE => None,
+            Beyond::Inside if lost <= LOST * energy => {
+                Some(format!("{at}; what lies outside is given to it too"))
+            }
+            _ => Some(format!(
+                "{at}; of about {energy:.4e} J the body takes {:.4e} J, and {lost:.4e} J are lost",
+                energy - lost
             )),
-            Beyond::Inside => Some(format!("{at}; what lies outside is given to it too")),
         }
     }
 }
@@ -307,6 +316,27 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn energy_that_is_lost_by_a_hundredth_is_told_with_both_figures() {
+        let torches = Torches::new(vec![torch(DISC, [0.0; 3], r#", "beyond": "lost""#)], &[]);
+        let told = |lost: f64| {
+            let inside = Inside {
+                least: 0.96,
+                most: 1.0,
+                spacing: 1e-4,
+                energy: 300.0,
+                lost,
+            };
+            torches.told(0, inside)
+        };
+        assert!(told(2.9).is_empty(), "{:?}", told(2.9));
+        let said = told(12.0);
+        assert!(
+            said.len() == 1 && said[0].contains("3.0000e2 J the body takes 2.8800e2 J"),
+            "{said:?}"
+        );
     }
 
     #[test]

@@ -233,6 +233,9 @@ impl<'a> Simulation<'a> {
         if let Some(warning) = totals.lost().and_then(thrown) {
             session.warn(warning);
         }
+        for note in march.stages().flat_map(|stage| stage.notes()) {
+            session.note(note);
+        }
         let told = march.stages().flat_map(|stage| stage.warnings());
         let doubts = crate::scene::doubts(self.scene).into_iter();
         for warning in told.chain(doubts).chain(self.run.grain_doubts.clone()) {

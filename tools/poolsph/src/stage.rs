@@ -112,6 +112,11 @@ pub trait Stage: Send {
         Vec::new()
     }
 
+    /// What a reader of the run may want to know when it has ended, and need not be warned of.
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Bytes that the stage holds beside the state's columns.
     fn bytes(&self) -> usize {
         0

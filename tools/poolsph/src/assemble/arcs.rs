@@ -66,7 +66,9 @@ impl Arcs {
         scene: &Scene,
         caloric: Shared<Caloric>,
     ) -> Result<heat::Arc, Fault> {
-        let mut stage = heat::Arc::without_arcs(caloric, scene.metal(), arc.on);
+        let open = scene.heat.as_ref().map(|heat| heat.planes().1);
+        let stage = heat::Arc::without_arcs(caloric, scene.metal(), arc.on);
+        let mut stage = stage.within(&open.unwrap_or_default());
         for one in &self.0 {
             let surface = one.tables.as_ref().map(ArcSource::surface);
             let own = one.heat.as_ref().unwrap_or(arc);

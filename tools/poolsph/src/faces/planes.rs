@@ -263,6 +263,18 @@ impl Faces {
         matches!(self.sides[axis][side], Some(Side::Mirror | Side::Lid))
     }
 
+    /// Whether the place `x` stands nearer to the mirror across x and y than `near` \[m\], below and above.
+    #[must_use]
+    pub fn mirrors_upon(&self, x: [f64; 3], near: f64) -> [[bool; 2]; 2] {
+        [0, 1].map(|axis| {
+            let planes = self.planes(axis);
+            [0, 1].map(|side| {
+                let close = |plane: f64| (plane - x[axis]).abs() < near;
+                self.is_mirror(axis, side) && planes[side].is_some_and(close)
+            })
+        })
+    }
+
     /// Part of a source around an axis `along` through the place `x` that is on this side of the mirrors through that axis, which lie
     /// nearer to it than `near` \[m\].
     #[must_use]

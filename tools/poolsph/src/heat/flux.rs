@@ -76,7 +76,7 @@ impl Flux {
     ) -> Result<(f64, bool), StageError> {
         let [time, dt] = times;
         let r = (from[0] * from[0] + from[1] * from[1]).sqrt();
-        if !matches!(self.law, Law::Curve(_)) || r > NEAR * d {
+        if !self.is_formula() || r > NEAR * d {
             return self.at(r, t, time, dt);
         }
         self.even(from, d, t, times)
@@ -120,6 +120,11 @@ impl Flux {
             Law::Table(table) => Some(table),
             _ => None,
         }
+    }
+
+    /// Whether it is a formula in the distance from the axis and in time.
+    pub(super) fn is_formula(&self) -> bool {
+        matches!(self.law, Law::Curve(_))
     }
 
     /// Distance beyond which there is nothing \[m\].

@@ -35,6 +35,8 @@ const UPON: f64 = 1e-3;
 const NONE: f64 = 1e-12;
 /// Share of a distribution below which it is told how little lies in the metal.
 const LITTLE: f64 = 0.95;
+/// Part of its energy that a torch may lose untold.
+const LOST: f64 = 0.01;
 /// Share above which it is told that the whole of a distribution would be given more than once.
 const MUCH: f64 = 1.05;
 /// Down, within rounding.
@@ -50,6 +52,27 @@ struct Lit {
     least: f64,
     /// Greatest share.
     most: f64,
+}
+
+impl Lit {
+    /// What is told where too little of its distribution lay in the metal, or too much of its energy was lost.
+    fn little(&self) -> Option<String> {
+        let [put, lost] = [self.put.value(), self.lost.value()];
+        let all = put + lost;
+        let at = format!(
+            "as little as {:.1} % of its heat lies in the metal",
+            100.0 * self.least
+        );
+        match self.torch.beyond {
+            _ if lost <= LOST * all && self.least >= LITTLE => None,
+            Beyond::Inside if lost <= LOST * all => {
+                Some(format!("{at}; what lies outside is given to it too"))
+            }
+            _ => Some(format!(
+                "{at}; of {all:.4e} J the metal takes {put:.4e} J, and {lost:.4e} J are lost"
+            )),
+        }
+    }
 }
 
 /// Torches as a stage.
@@ -236,17 +259,8 @@ impl Stage for Torches {
             format!("torches/{number}: gave no heat at all; it burns from {from} s on")
         });
         let little = self.torches.iter().enumerate();
-        let little = little.filter(|(_, lit)| lit.least < LITTLE);
-        let told = little.map(|(number, lit)| {
-            let percent = 100.0 * lit.least;
-            let at = format!(
-                "torches/{number}: as little as {percent:.1} % of its heat lies in the metal"
-            );
-            match lit.lost.value() {
-                lost if lost > 0.0 => format!("{at}; {lost:.4e} J are lost"),
-                _ => format!("{at}; what lies outside is given to it too"),
-            }
-        });
+        let told =
+            little.filter_map(|(number, lit)| Some(format!("torches/{number}: {}", lit.little()?)));
         let much = self.torches.iter().enumerate();
         let much = much.filter(|(_, lit)| lit.torch.beyond == Beyond::Lost && lit.most > MUCH);
         let much = much.map(|(number, lit)| {

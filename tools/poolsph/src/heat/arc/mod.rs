@@ -18,6 +18,7 @@
 //! whatever shape it has. With `area`, it is the whole area. A surface that faces down takes
 //! nothing. The cross-section pi d^2/4 of eq. 4.10 would pass on 78.5 % of every flux.
 
+mod offered;
 mod parameters;
 mod reached;
 mod stands;
@@ -40,9 +41,10 @@ use crate::source::arcs::Burning;
 use crate::stage::{Stage, StageError};
 use crate::state::{ENTHALPY, State, TEMPERATURE};
 
+use offered::Ground;
 use parameters::ENERGIES;
 pub use parameters::{ArcParameters, Onto, Part};
-use reached::{Reached, held};
+use reached::Reached;
 use stands::{Stand, stands};
 
 /// Fewest steps in a period of a waveform, where steps are adaptive.
@@ -56,8 +58,6 @@ struct Burner {
     energies: Vec<usize>,
     /// Distance beyond which there is no heat \[m\].
     reach: f64,
-    /// What its tables hold \[W\].
-    held: f64,
     reached: Reached,
 }
 
@@ -88,6 +88,7 @@ pub struct Arc {
     coldest: f64,
     /// Whether grains may have taken the heat.
     covered: bool,
+    ground: Ground,
     /// Where each arc stands in this step, and how strongly it burns.
     stands: Vec<Stand>,
     heated: Chunks<Result<Heated, StageError>>,
@@ -157,6 +158,7 @@ impl Arc {
             missed: false,
             coldest: f64::MAX,
             covered: false,
+            ground: Ground::WHOLE,
             stands: Vec::new(),
             heated: Chunks::default(),
         }
@@ -187,7 +189,6 @@ impl Arc {
         self.arcs.push(Burner {
             burning,
             reach: fluxes.iter().map(Flux::reach).fold(0.0, f64::max),
-            held: held(&fluxes),
             reached: Reached::default(),
             fluxes,
             energies,
@@ -306,7 +307,7 @@ impl Stage for Arc {
         let followed = stands(&self.arcs, state.source, times, spacing, &mut self.stands);
         self.missed |= !followed;
         if state.step.is_multiple_of(reached::EVERY) {
-            self.compare(&skin, state)?;
+            self.compare(&skin, state, times)?;
         }
         heated.fill(&state.exposed, |a| {
             let spot = self.lit(&skin, a, 0.0)?;
@@ -357,19 +358,24 @@ impl Stage for Arc {
             "the arc gave the metal no heat at all: see where its axis is, and when it burns"
                 .to_owned()
         });
-        let arcs = self.arcs.iter().enumerate();
-        let beside = arcs.filter_map(|(number, arc)| arc.reached.warning(number));
-        let beside = beside.filter(|_| !self.covered && nothing.is_none());
-        let beside: Vec<String> = beside.collect();
-        let cold = self.cold();
-        let told = missed.into_iter().chain(nothing).chain(cold);
+        let beside = match self.covered || nothing.is_some() {
+            true => Vec::new(),
+            false => self.beside(Reached::warning),
+        };
+        let told = missed.into_iter().chain(nothing).chain(self.cold());
         told.chain(beside).collect()
+    }
+
+    fn notes(&self) -> Vec<String> {
+        match self.covered {
+            true => Vec::new(),
+            false => self.beside(Reached::note),
+        }
     }
 
     fn save(&self) -> Vec<f64> {
         let put = self.energies.iter().flat_map(|(_, sum)| sum.save());
-        let reached = self.arcs.iter().map(|arc| arc.reached);
-        let reached = reached.flat_map(|one| [one.offered, one.put, one.even]);
+        let reached = self.arcs.iter().flat_map(|arc| arc.reached.save());
         let missed = f64::from(u8::from(self.missed));
         put.chain(reached).chain([self.coldest, missed]).collect()
     }
@@ -382,9 +388,8 @@ impl Stage for Arc {
             *sum = Sum::restored(parts);
         }
         let arcs = saved.get(2 * self.energies.len()..).unwrap_or_default();
-        for (arc, parts) in self.arcs.iter_mut().zip(arcs.chunks_exact(3)) {
-            let [offered, put, even] = [parts[0], parts[1], parts[2]];
-            arc.reached = Reached { offered, put, even };
+        for (arc, parts) in self.arcs.iter_mut().zip(arcs.as_chunks::<6>().0) {
+            arc.reached = Reached::restored(*parts);
         }
     }
 }

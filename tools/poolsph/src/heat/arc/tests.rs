@@ -328,9 +328,55 @@ fn an_arc_whose_tables_fall_beside_the_plate_is_told() {
     assert!(told(0.0).is_empty(), "{:?}", told(0.0));
     let said = told(100.0);
     assert!(
-        said.len() == 1 && said[0].starts_with("arc 1: 0.0 %"),
+        said.len() == 1 && said[0].starts_with("arc 1: of ") && said[0].contains("0.0 %"),
         "{said:?}"
     );
+}
+
+/// What is told, and noted, of a Gaussian of 5 m that stands `x` \[m\] beside the middle of a plate of 20 m to each side.
+fn gaussian(x: f64, open: &[crate::rest::Plane]) -> [Vec<String>; 2] {
+    let flux = json!({"flux_w_m2": {"expr": "1e6*exp(-(r/5)^2)"}});
+    let parameters: ArcParameters = serde_json::from_value(flux).unwrap();
+    let stands: OneArc = serde_json::from_value(json!({"offset_m": [x, 0, 0]})).unwrap();
+    let arc = Arc::without_arcs(Shared::new(plain(1e9, 1.0, None)), METAL, Onto::default());
+    let mut arc = arc.within(open);
+    arc.burn(&parameters, stands.burning(), None).unwrap();
+    arc.advance(&mut plate(300.0), 1e-4).unwrap();
+    [arc.warnings(), arc.notes()]
+}
+
+#[test]
+fn a_formula_that_falls_beside_the_plate_by_a_hundredth_is_told_with_both_figures() {
+    let none: [Vec<String>; 2] = Default::default();
+    assert_eq!(gaussian(0.0, &[]), none);
+    // Beyond an edge at the distance d lies (1 - erf(d/5))/2: 0.24 % of it at 10 m, 1.7 % at 7.5 m, half of it at the edge.
+    assert_eq!(gaussian(10.0, &[]), none);
+    for (x, exact) in [(12.5, 98.31), (20.0, 50.0)] {
+        let [said, noted] = gaussian(x, &[]);
+        assert!(noted.is_empty() && said.len() == 1, "{said:?}");
+        let percent = said[0]
+            .split(" W, ")
+            .nth(1)
+            .and_then(|rest| rest.split(' ').next());
+        let percent: f64 = percent.unwrap().parse().unwrap();
+        assert!((percent - exact).abs() < 0.3, "{said:?}");
+        // pi 5^2 1e6 W in all.
+        assert!(said[0].contains("of 7.8540e7 W"), "{said:?}");
+    }
+}
+
+#[test]
+fn heat_beyond_an_open_face_is_noted_as_not_computed() {
+    let open = [crate::rest::Plane {
+        axis: 0,
+        at: 20.0,
+        outward: 1.0,
+    }];
+    let [said, noted] = gaussian(12.5, &open);
+    assert!(said.is_empty() && noted.len() == 1, "{said:?} {noted:?}");
+    let [said, noted] = gaussian(22.5, &open);
+    assert!(noted.is_empty() && said.len() == 1, "{said:?} {noted:?}");
+    assert!(said[0].contains("beyond the open faces"), "{said:?}");
 }
 
 #[test]

@@ -92,6 +92,28 @@ fn the_arc_burns_from_its_start_to_its_end_within_steps() {
 }
 
 #[test]
+fn energy_that_is_lost_by_a_hundredth_is_told_with_both_figures() {
+    let lit = |lost: f64| {
+        let mut lit = Lit {
+            torch: torch(DEEP, r#", "beyond": "lost""#),
+            put: Sum::default(),
+            lost: Sum::default(),
+            least: 0.96,
+            most: 1.0,
+        };
+        lit.put.add(300.0 - lost);
+        lit.lost.add(lost);
+        lit.little()
+    };
+    assert_eq!(lit(2.9), None);
+    let told = lit(12.0).unwrap();
+    assert!(
+        told.contains("3.0000e2 J the metal takes 2.8800e2 J"),
+        "{told}"
+    );
+}
+
+#[test]
 fn what_lies_outside_is_lost_where_it_is_asked_for_and_told() {
     let mut aside = torch(DEEP, r#", "beyond": "lost""#);
     for corner in &mut aside.path.points_m {
