@@ -1,10 +1,13 @@
 //! What of a march changes from step to step, beside its state; both are kept in checkpoints.
 
 use artefact::Checkpoint;
-use run::Failure;
+use run::{Failure, Session};
 
 use crate::march::{Method, State};
 use crate::system::System;
+
+/// Error of a step, over the range of temperature, from which on what it ends at is told to be off.
+const ROUGH: f64 = 0.01;
 
 /// What of the march changes from step to step.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +28,10 @@ pub struct Pace {
     pub taken: [f64; 2],
     /// Whether steps had to be divided.
     pub substepped: bool,
+    /// Estimated error of the last step \[K\].
+    pub error: f64,
+    /// Instants that were written after a rough step, the greatest error of these over the range of temperature, and its instant \[s\].
+    rough: [f64; 3],
 }
 
 impl Default for Pace {
@@ -38,11 +45,45 @@ impl Default for Pace {
             limit: f64::INFINITY,
             taken: [0.0, f64::INFINITY],
             substepped: false,
+            error: 0.0,
+            rough: [0.0; 3],
         }
     }
 }
 
 impl Pace {
+    /// Takes the estimated error of a step; what is below `nothing` is none \[K\].
+    pub fn erred(&mut self, error: f64, nothing: f64) {
+        self.error = if error > nothing { error } else { 0.0 };
+    }
+
+    /// Marks an instant \[s\] that is written.
+    pub fn mark(&mut self, time: f64) {
+        let share = self.error / self.range.max(f64::MIN_POSITIVE);
+        if share > ROUGH {
+            let [count, worst, at] = self.rough;
+            let [worst, at] = if share > worst {
+                [share, time]
+            } else {
+                [worst, at]
+            };
+            self.rough = [count + 1.0, worst, at];
+        }
+    }
+
+    /// Tells instants that were written after steps which err.
+    pub fn tell(&self, session: &mut Session) {
+        let [count, _, at] = self.rough;
+        if count > 0.0 {
+            session.warn(format!(
+                "what is written at {count} instants follows steps that err by more than {:.0} % of the range of temperature as \
+                 estimated, most at {at:.4e} s: take a shorter \"step_s\", or none, so that the error chooses the steps, or a \
+                 smaller \"tolerance\"",
+                100.0 * ROUGH
+            ));
+        }
+    }
+
     /// Puts all that the rest of a march depends on into a checkpoint.
     ///
     /// # Errors
@@ -61,6 +102,8 @@ impl Pace {
         checkpoint.put_f64("entries", &state.entries);
         let [most, least] = self.taken;
         checkpoint.put_f64("pace", &[self.step, self.range, self.limit, most, least]);
+        let [count, worst, at] = self.rough;
+        checkpoint.put_f64("errors", &[self.error, count, worst, at]);
         let done: Vec<f64> = method.report().iter().map(|(_, n)| *n).collect();
         checkpoint.put_f64("method", &done);
         let flag = u64::from(self.substepped);
@@ -90,13 +133,14 @@ impl Pace {
             Some(_) => checkpoint.f64("heat")?,
             None => Vec::new(),
         };
-        let entries = checkpoint.f64("entries")?;
+        let (entries, errors) = (checkpoint.f64("entries")?, checkpoint.f64("errors")?);
         method.count_from(&checkpoint.f64("method")?);
         let (
             &[time, source],
             &[step, range, limit, most, least],
             &[steps, rejected, next, substepped],
-        ) = (&time[..], &pace[..], &count[..])
+            &[error, instants, worst, at],
+        ) = (&time[..], &pace[..], &count[..], &errors[..])
         else {
             return Err(Failure::Other("the checkpoint lacks a part".to_owned()));
         };
@@ -109,6 +153,8 @@ impl Pace {
             limit,
             taken: [most, least],
             substepped: substepped > 0,
+            error,
+            rough: [instants, worst, at],
         };
         let state = State {
             time,

@@ -283,8 +283,9 @@ impl March<'_> {
         if grown.map_err(|error| self.diverged("property", &error.to_string(), None))? {
             return Ok(Some(step));
         }
+        let (low, high) = extent(&self.state.temperature);
+        self.pace.erred(error, nothing(low, high));
         if let Steps::Controlled { tolerance, floor } = self.steps {
-            let (low, high) = extent(&self.state.temperature);
             let wanted = tolerance * self.pace.range.max(high - low);
             let floor = floor.unwrap_or_else(|| nothing(low, high));
             let ratio = error / wanted.max(floor).max(f64::MIN_POSITIVE);
@@ -315,6 +316,7 @@ impl March<'_> {
         event: Instant,
         session: &mut Session,
     ) -> Result<(), Failure> {
+        self.pace.mark(event.time);
         output.write(self.system, &self.state, &self.rates, event, session)
     }
 
@@ -389,6 +391,7 @@ impl March<'_> {
             session.closing(name, "1", value);
         }
         output.close(self.system, &self.state, session);
+        self.pace.tell(session);
         self.compare(heats, session);
         Ok(())
     }

@@ -72,6 +72,32 @@ fn stored(more: &Value, end: f64) -> Vec<f64> {
 }
 
 #[test]
+fn given_steps_that_err_by_more_than_a_hundredth_where_they_are_written_are_told() {
+    let ended = |time: Value| {
+        let cools = json!({"coefficient_w_m2_k": 1000, "ambient_k": 0});
+        let mut scene = plate(&json!({"boundaries": [{"on": ["x+", "y+"], "convection": cools}]}));
+        scene["time"] = time;
+        let (code, _, said) = run(&scene);
+        (code, said)
+    };
+    let (code, said) = ended(json!({"end_s": 600, "implicit": {"step_s": 600}}));
+    assert_eq!(code, Some(3), "{said}");
+    assert!(
+        said.contains("at 1 instants follows") && said.contains("step_s"),
+        "{said}"
+    );
+    // The first steps err as much, and nothing is written there.
+    for time in [
+        json!({"end_s": 600, "implicit": {"step_s": 20}}),
+        json!({"end_s": 600, "stabilised": {"step_s": 20}}),
+        json!({"end_s": 600, "implicit": {}}),
+    ] {
+        let (code, said) = ended(time);
+        assert_eq!(code, Some(0), "{said}");
+    }
+}
+
+#[test]
 fn every_instant_is_written_once() {
     let folder = tempfile::tempdir().unwrap();
     let [path, out] = ["scene.json", "out.mcap"].map(|name| folder.path().join(name));
