@@ -32,7 +32,8 @@ fn the_layout_shows_topics_fields_and_values_of_a_weld() {
     std::fs::write(&scene, WELD).unwrap();
     let mut run = Command::new(program("poolsph"));
     run.arg("run").arg(&scene).arg("--out").arg(&out).arg("-q");
-    assert!(run.status().unwrap().success());
+    // A little of its heat falls beside the plate, which is told.
+    assert_eq!(run.status().unwrap().code(), Some(3));
     let reader = Reader::open(&out).unwrap();
     let text = std::fs::read_to_string(root().join("pipelines/foxglove.json")).unwrap();
     let layout: Value = serde_json::from_str(&text).unwrap();

@@ -48,15 +48,6 @@ pub enum LabError {
     },
 }
 
-impl From<figures::Error> for LabError {
-    fn from(error: figures::Error) -> Self {
-        match error {
-            figures::Error::Artefact(error) => Self::Artefact(error),
-            figures::Error::Missing { path, what } => Self::Content { path, what },
-        }
-    }
-}
-
 impl LabError {
     /// Whether the scene is at fault, and no program: a tool refused it (exit code 2), or it has no exact solution.
     #[must_use]

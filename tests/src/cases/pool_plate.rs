@@ -46,7 +46,7 @@ impl Case for PoolPlate {
             Target::error("conductivity", 0.01).at_level(1),
             Target::error("conductivity", 0.005),
             Target::error("conductivity", 0.03).of("one-to-one"),
-            Target::error("conductivity", 0.05).of("one-to-two"),
+            Target::error("conductivity", 0.03).of("one-to-two"),
         ]
     }
 

@@ -32,6 +32,15 @@ pub fn read(lab: &Lab, figure: &Figure, artefact: &Path) -> Result<Reading, LabE
     judged(figure, artefact, reading)
 }
 
+impl From<figures::Error> for LabError {
+    fn from(error: figures::Error) -> Self {
+        match error {
+            figures::Error::Artefact(error) => Self::Artefact(error),
+            figures::Error::Missing { path, what } => Self::Content { path, what },
+        }
+    }
+}
+
 /// Refuses a value that is no number.
 fn judged(figure: &Figure, artefact: &Path, reading: Reading) -> Result<Reading, LabError> {
     match reading.value.is_finite() {

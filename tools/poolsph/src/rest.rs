@@ -9,9 +9,10 @@
 //! `sum of W(|x_a - image of x_b|)` over b and its images in the named planes, which is symmetric
 //! in a and b: conduction along a flat face is as in the inside, and across it nothing flows.
 //! Only particles that have never moved take part; a mirror would be wrong for a bead. Beside free faces that no scene names
-//! weights are raised for what flows along them ([`cut`]).
+//! weights are raised for what flows along them (`rest/cut`).
 
 mod cut;
+mod standing;
 
 use std::collections::BTreeMap;
 
@@ -19,7 +20,8 @@ use kernels::CubicSpline;
 use particles::POSITION;
 use shapes::frame::{difference, distance};
 
-use self::cut::{Cuts, Standing};
+use self::cut::Cuts;
+use self::standing::Standing;
 use crate::state::{DROPLET, FUSED, LIQUID, PHASE, State, marked, phase};
 
 /// A plane across an axis.

@@ -102,7 +102,7 @@ fn weld() -> Value {
     let metal = json!({"min_m": [-4e-3, -4e-3, -2e-3], "max_m": [4e-3, 4e-3, 0]});
     weld["bodies"] = json!([{"shape": {"box": metal}, "state": "solid", "temperature_k": 1500}]);
     weld["source"] = json!({"start_m": [0, -2e-3, 0], "velocity_m_s": [0, 0.05, 0]});
-    weld["arc"] = json!({"flux_w_m2": {"expr": "8e7*exp(-(r/2e-3)^2)"}});
+    weld["arc"] = json!({"flux_w_m2": {"expr": "8e7*exp(-(r/1.7e-3)^2)"}});
     weld["flow_start"] = json!({"liquid_particles": 120});
     weld["droplets"] = json!({"feed_m3_s": 1.5e-7, "radius_m": 7.5e-4, "height_m": 4e-3, "speed_m_s": 1.0,
         "temperature_k": 2100});

@@ -168,9 +168,10 @@ fn closing(artefact: &Path, name: &str) -> Result<Reading, Error> {
         serde_json::from_str(&text).map_err(|error| missing(&record, error.to_string()))?;
     let values = told["closing"].as_array().into_iter().flatten();
     let own = values.filter(|value| value["name"] == name);
-    let found = own.filter_map(|value| Some((value["value"].as_f64()?, value["unit"].as_str())));
+    let mut found =
+        own.filter_map(|value| Some((value["value"].as_f64()?, value["unit"].as_str())));
     let (value, unit) = found
-        .last()
+        .next_back()
         .ok_or_else(|| missing(&record, format!("it closes without '{name}'")))?;
     Ok(reading(value, unit.unwrap_or_default()))
 }

@@ -6,30 +6,29 @@
 //! a particle takes the complete sum of that neighbour which has most. Pairs at rest weigh
 //!
 //! ```text
-//! W_ab (1 + (f_a + f_b)/2),    f_a = c_a (e . t_a)^4 + d_a (e . u_a)^4
+//! W_ab (1 + (f_a + f_b)/2),    f_a = c_a (e . t_a)^8 + d_a (e . u_a)^8
 //! ```
 //!
 //! with e the direction of the pair. t_a and u_a stand across n_a, the direction of the sum of r W over what has nothing opposite: they are those in
 //! which most and least lacks, at an edge around it and along it. c_a and d_a, which are not below 0, make sum W (r . t)^2 and sum W (r .
-//! u)^2 those of the complete sum. Pairs along n_a keep their weight. What a gains b still loses to the last bit. No sum of weights rises above
-//! that of the complete sum, so the limit of the step holds.
+//! u)^2 those of the complete sum. Pairs along n_a keep their weight. What a gains b still loses to the last bit. No sum of weights rises by
+//! more than 5 % above the complete one, so the limit of the step holds.
 
-use std::collections::BTreeMap;
+use std::cell::LazyCell;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use shapes::frame::{Vector, along, cross, difference, dot, squared, unit};
+use shapes::frame::{Vector, cross, difference, dot, squared, unit};
 
-use super::{Link, Plane, around, cell};
+use super::Link;
+use super::standing::{Lacks, Standing, Whole};
 
-/// Particles by cells as wide as the kernel reaches.
-type Cells = BTreeMap<[i32; 3], Vec<u32>>;
-
-/// A particle stands at a place within this part of the reach of the kernel.
-const STANDS: f64 = 0.3;
-/// Rounds of the coupled equations, their damping, and the change that ends them.
-const ROUNDS: u32 = 200;
-const DAMPING: f64 = 0.7;
-const SETTLED: f64 = 1e-10;
+/// Sum of the weights of a particle, over that of the inside, up to which it may rise: below what the limit of the step allows for.
+const ALLOWED: f64 = 1.05;
+/// Rounds of the coupled equations, their damping, the change that ends them, and the greatest c and d.
+const ROUNDS: u32 = 60;
+const DAMPING: f64 = 0.4;
+const SETTLED: f64 = 1e-6;
+const MOST: f64 = 4.0;
 
 /// A particle whose sum is cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,12 +41,12 @@ struct Cut {
 }
 
 impl Cut {
-    /// (e . t)^4 and (e . u)^4 for a direction of any length.
+    /// (e . t)^8 and (e . u)^8 for a direction of any length.
     fn along(&self, way: Vector) -> [f64; 2] {
         let size = squared(way);
         self.flat.map(|t| {
             let square = dot(way, t) * dot(way, t) / size;
-            square * square
+            square.powi(4)
         })
     }
 
@@ -86,37 +85,10 @@ pub(super) struct Cuts {
     all: Vec<Cut>,
 }
 
-/// What stands where at the start.
-pub(super) struct Standing<'a> {
-    pub(super) places: &'a [Vector],
-    /// Named faces, beyond which nothing lacks.
-    pub(super) faces: &'a [Plane],
-    /// Reach of the kernel \[m\].
-    pub(super) reach: f64,
-}
-
-/// A sum that is complete as far as opposite places tell: what has nothing opposite counts twice.
-#[derive(Debug, Clone, Copy)]
-struct Whole {
-    /// Sum of W, and of W r r along xx, yy, zz, yz, zx, xy.
-    sum: f64,
-    moment: [f64; 6],
-    /// Whether a named face completes it.
-    named: bool,
-}
-
-/// Neighbours of a particle that have nothing opposite.
-#[derive(Default)]
-struct Lacks {
-    each: Vec<bool>,
-    /// Whether a named face makes good for others.
-    named: bool,
-}
-
 /// A pair of a cut particle.
 struct Pair {
     weight: f64,
-    /// (r . t)^2 and (r . u)^2, (e . t)^4 and (e . u)^4 of the particle.
+    /// (r . t)^2 and (r . u)^2, (e . t)^8 and (e . u)^8 of the particle.
     square: [f64; 2],
     along: [f64; 2],
     /// The other one among the cut particles, and the same of it; 0 where it is not cut.
@@ -124,20 +96,16 @@ struct Pair {
     along_of_other: [f64; 2],
 }
 
-/// What a cut particle has, and its sums of W (r . t)^2, W (r . u)^2 and W when complete.
+/// What a cut particle has, and its sums of W (r . t)^2 and W (r . u)^2 when complete.
 struct Sums {
     pairs: Vec<Pair>,
-    whole: [f64; 3],
+    whole: [f64; 2],
 }
 
 impl Cuts {
     /// Those of the rows of particles at rest.
     pub(super) fn of(rows: &[Vec<Link>], standing: &Standing<'_>) -> Self {
-        let mut cells = Cells::new();
-        for (a, place) in standing.places.iter().enumerate() {
-            let own = cells.entry(cell(*place, standing.reach)).or_default();
-            own.push(a as u32);
-        }
+        let cells = LazyCell::new(|| standing.cells());
         let (mut wholes, mut normals) = (Vec::with_capacity(rows.len()), Vec::new());
         for (a, row) in rows.iter().enumerate() {
             let lacks = standing.lacks(a, row, &cells);
@@ -152,7 +120,7 @@ impl Cuts {
             let lacks = std::array::from_fn(|k| most.moment[k] - has.moment[k]);
             let flat = across(normal, lacks);
             let [t, u] = flat.map(|t| along_both(most.moment, t));
-            complete.push([t, u, most.sum]);
+            complete.push([t, u]);
             found.all.push(Cut {
                 particle: a as u32,
                 flat,
@@ -165,6 +133,9 @@ impl Cuts {
         });
         let sums: Vec<Sums> = sums.collect();
         found.settle(&sums);
+        if !found.is_empty() {
+            found.limit(rows, standing.places, &wholes);
+        }
         found
     }
 
@@ -235,7 +206,7 @@ impl Cuts {
         each.collect()
     }
 
-    /// Makes the sums complete by Jacobi's iteration, as far as the limit of the step allows.
+    /// Makes the sums complete by Jacobi's iteration.
     fn settle(&mut self, sums: &[Sums]) {
         for _ in 0..ROUNDS {
             let each = self.all.iter().zip(sums);
@@ -255,29 +226,46 @@ impl Cuts {
 
     /// c and d of the next round.
     fn next(&self, more: [f64; 2], own: &Sums) -> [f64; 2] {
-        // Of both moments and of W: the sum, and its slopes along c and d.
-        let (mut has, mut slopes) = ([0.0; 3], [[0.0; 2]; 3]);
+        let (mut has, mut slope) = ([0.0; 2], [0.0; 2]);
         for pair in &own.pairs {
             let other = dot_of_two(self.all[pair.other].more, pair.along_of_other);
             let factor = 1.0 + 0.5 * (dot_of_two(more, pair.along) + other);
-            let [t, u] = pair.square;
-            for (k, part) in [t, u, 1.0].into_iter().enumerate() {
-                has[k] += pair.weight * part * factor;
-                for (slope, along) in slopes[k].iter_mut().zip(pair.along) {
-                    *slope += 0.5 * pair.weight * part * along;
-                }
+            for k in 0..2 {
+                has[k] += pair.weight * pair.square[k] * factor;
+                slope[k] += 0.5 * pair.weight * pair.square[k] * pair.along[k];
             }
         }
-        let wanted = |k: usize| match slopes[k][k] > 0.0 {
-            true => DAMPING * (own.whole[k] - has[k]) / slopes[k][k],
+        let wanted = |k: usize| match slope[k] > 0.0 {
+            true => DAMPING * (own.whole[k] - has[k]) / slope[k],
             false => 0.0,
         };
-        let mut change = [wanted(0), wanted(1)];
-        let (rise, room) = (dot_of_two(change, slopes[2]), own.whole[2] - has[2]);
-        if rise > room && rise > 0.0 {
-            change = change.map(|change| change * room / rise);
+        [0, 1].map(|k| (more[k] + wanted(k)).clamp(0.0, MOST))
+    }
+
+    /// Lowers c and d so far that no sum of W rises above what the limit of the step allows: each by the least factor that it, or
+    /// a neighbour, needs.
+    fn limit(&mut self, rows: &[Vec<Link>], places: &[Vector], wholes: &[Whole]) {
+        let factor = |(a, row): (usize, &Vec<Link>)| {
+            let (mut has, mut more) = (0.0, 0.0);
+            for link in row {
+                let b = link.to as usize;
+                has += link.weight;
+                more += link.weight * (self.factor(a, b, difference(places[a], places[b])) - 1.0);
+            }
+            let room = ALLOWED * most(a, row, wholes).sum - has;
+            if more > room {
+                (room / more).max(0.0)
+            } else {
+                1.0
+            }
+        };
+        let factors: Vec<f64> = rows.iter().enumerate().map(factor).collect();
+        for cut in &mut self.all {
+            let a = cut.particle as usize;
+            let beside = rows[a].iter().map(|link| factors[link.to as usize]);
+            let least = beside.fold(factors[a], f64::min);
+            cut.more = cut.more.map(|more| more * least);
         }
-        [0, 1].map(|k| (more[k] + change[k]).max(0.0))
     }
 }
 
@@ -300,72 +288,12 @@ fn along_both([xx, yy, zz, yz, zx, xy]: [f64; 6], t: Vector) -> f64 {
     xx * x * x + yy * y * y + zz * z * z + 2.0 * (yz * y * z + zx * z * x + xy * x * y)
 }
 
-impl Standing<'_> {
-    /// Which neighbours of `a` have nothing opposite.
-    fn lacks(&self, a: usize, row: &[Link], cells: &Cells) -> Lacks {
-        let at = self.places[a];
-        let near = (STANDS * self.reach).powi(2);
-        let stands =
-            |place: Vector, b: u32| squared(difference(self.places[b as usize], place)) < near;
-        let mut named = false;
-        let mut lacks = |link: &Link| {
-            let to = self.places[link.to as usize];
-            let place: Vector = std::array::from_fn(|k| 2.0 * at[k] - to[k]);
-            // Most are of the row itself.
-            if row.iter().any(|link| stands(place, link.to)) {
-                return false;
-            }
-            let beyond = |face: &Plane| face.outward * (place[face.axis] - face.at) > 0.0;
-            if self.faces.iter().any(beyond) {
-                named = true;
-                return false;
-            }
-            let mut beside = around(cell(place, self.reach)).filter_map(|cell| cells.get(&cell));
-            !beside.any(|own| own.iter().any(|b| stands(place, *b)))
-        };
-        let each = row.iter().map(&mut lacks).collect();
-        Lacks { each, named }
-    }
-
-    fn whole(&self, a: usize, row: &[Link], lacks: &Lacks) -> Whole {
-        let mut whole = Whole {
-            sum: 0.0,
-            moment: [0.0; 6],
-            named: lacks.named,
-        };
-        for (place, link) in row.iter().enumerate() {
-            let lacks = lacks.each.get(place).is_some_and(|lacks| *lacks);
-            let weight = if lacks { 2.0 } else { 1.0 } * link.weight;
-            let [x, y, z] = difference(self.places[link.to as usize], self.places[a]);
-            whole.sum += weight;
-            for (sum, product) in
-                whole
-                    .moment
-                    .iter_mut()
-                    .zip([x * x, y * y, z * z, y * z, z * x, x * y])
-            {
-                *sum += weight * product;
-            }
-        }
-        whole
-    }
-
-    /// Direction of the sum of r W over what has nothing opposite; none where all has, or where the sum has no direction.
-    fn normal(&self, a: usize, row: &[Link], lacks: &Lacks) -> Option<Vector> {
-        let mut sum = [0.0; 3];
-        for (link, _) in row.iter().zip(&lacks.each).filter(|(_, lacks)| **lacks) {
-            let way = difference(self.places[link.to as usize], self.places[a]);
-            sum = along(sum, link.weight, way);
-        }
-        unit(sum)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use kernels::CubicSpline;
 
     use super::*;
+    use crate::rest::Plane;
 
     /// Rows of a body of cells of 1 m, and the sum of W x^2 of each particle.
     fn rows(places: &[Vector]) -> Vec<Vec<Link>> {
@@ -448,7 +376,11 @@ mod tests {
             .collect();
         let both = [places, upper].concat();
         let cuts = Cuts::of(&rows(&both), &standing(&both, &faces[..4]));
-        let between = |cut: &&Cut| (6.0..10.0).contains(&both[cut.particle as usize][2]);
+        // Away from the sides, where one stands out over the other.
+        let between = |cut: &&Cut| {
+            let [x, y, z] = both[cut.particle as usize];
+            (6.0..10.0).contains(&z) && [x, y].iter().all(|x| (1.0..6.0).contains(x))
+        };
         assert_eq!(cuts.all.iter().filter(between).count(), 0);
     }
 
@@ -474,6 +406,6 @@ mod tests {
         let whole: f64 = 6.0 * kernel.value(1.0)
             + 12.0 * kernel.value(2.0_f64.sqrt())
             + 8.0 * kernel.value(3.0_f64.sqrt());
-        assert!(most < whole * (1.0 + 1e-9), "{most} {whole}");
+        assert!(most < whole * ALLOWED * (1.0 + 1e-9), "{most} {whole}");
     }
 }
