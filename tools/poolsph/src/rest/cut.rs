@@ -331,9 +331,15 @@ mod tests {
         }
     }
 
+    /// The particle at a place.
+    fn number(places: &[Vector], at: Vector) -> usize {
+        let here = |place: &Vector| squared(difference(*place, at)) < 1e-12;
+        places.iter().position(here).unwrap()
+    }
+
     /// Sum of W x_k^2 of the particle at a place.
     fn moment(places: &[Vector], cuts: &Cuts, at: Vector, k: usize) -> f64 {
-        let a = places.iter().position(|x| *x == at).unwrap();
+        let a = number(places, at);
         let row = &rows(places)[a];
         row.iter()
             .map(|link| {
@@ -354,7 +360,7 @@ mod tests {
         assert!((face / inside - 1.0).abs() < 1e-3, "{face} {inside}");
         // Straight into the metal nothing changes.
         let into = [[4.0, 4.0, 0.0], [4.0, 4.0, 1.0]];
-        let [a, b] = into.map(|at| places.iter().position(|x| *x == at).unwrap());
+        let [a, b] = into.map(|at| number(&places, at));
         assert_eq!(
             cuts.factor(a, b, [0.0, 0.0, 1.0]).to_bits(),
             1.0_f64.to_bits()

@@ -128,7 +128,7 @@ fn a_sweep_tells_whatever_figures_a_run_wrote() {
     let table = std::fs::read_to_string(folder.join("sweep.csv")).unwrap();
     let second = table.lines().nth(2).unwrap();
     let told: f64 = second.split(',').nth(2).unwrap().parse().unwrap();
-    let reader = artefact::Reader::open(&folder.join("200.mcap")).unwrap();
+    let reader = artefact::Reader::open(folder.join("200.mcap")).unwrap();
     let column = reader.table_at("/surface", 0).unwrap();
     let values = column.values("arc_pressure_pa").unwrap();
     let most = values.iter().copied().fold(0.0, f64::max);
