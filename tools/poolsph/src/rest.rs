@@ -17,7 +17,7 @@ mod standing;
 use std::collections::BTreeMap;
 
 use kernels::CubicSpline;
-use particles::POSITION;
+use particles::{Matter, POSITION};
 use shapes::frame::{difference, distance};
 
 use self::cut::Cuts;
@@ -59,6 +59,8 @@ enum Part {
 #[derive(Debug, Clone, Default)]
 pub struct Rest {
     kernel: Option<CubicSpline<3>>,
+    /// Of the lattice \[m\].
+    spacing: f64,
     mirrors: Vec<Plane>,
     /// All named faces.
     faces: Vec<Plane>,
@@ -73,9 +75,10 @@ pub struct Rest {
 impl Rest {
     /// No rows yet; `mirrors` are the flat faces that complete rows, `open` those that the metal goes on behind.
     #[must_use]
-    pub fn new(smoothing_length: f64, mirrors: Vec<Plane>, open: &[Plane]) -> Self {
+    pub fn new(metal: Matter, mirrors: Vec<Plane>, open: &[Plane]) -> Self {
         Self {
-            kernel: Some(CubicSpline::new(smoothing_length)),
+            kernel: Some(CubicSpline::new(metal.smoothing_length)),
+            spacing: metal.spacing,
             faces: [&mirrors, open].concat(),
             mirrors,
             ..Self::default()
@@ -145,6 +148,7 @@ impl Rest {
             places,
             faces: &self.faces,
             reach: kernel.support(),
+            spacing: self.spacing,
         };
         let cuts = Cuts::of(&self.rows, &standing);
         if !cuts.is_empty() {
@@ -172,7 +176,7 @@ impl Rest {
         let Some((count, saved)) = saved.split_first() else {
             return;
         };
-        let (parts, cuts) = saved.split_at((*count as usize).min(saved.len()));
+        let (parts, cuts) = saved.split_at((*count as usize).min(saved.len()).min(state.len()));
         self.rows = vec![Vec::new(); parts.len()];
         self.part = vec![Part::Away; parts.len()];
         self.cuts = Some(Cuts::restored(cuts));
@@ -280,16 +284,16 @@ fn cell(place: [f64; 3], edge: f64) -> [i32; 3] {
 mod tests {
     use super::*;
     use crate::state::Particle;
-    use particles::Matter;
+
+    const METAL: Matter = Matter {
+        density: 1.0,
+        spacing: 1.0,
+        smoothing_length: 1.0,
+    };
 
     /// A block of 6^3 cells of 1 m, one corner in the origin.
     fn block() -> State {
-        let metal = Matter {
-            density: 1.0,
-            spacing: 1.0,
-            smoothing_length: 1.0,
-        };
-        let mut state = State::new(metal);
+        let mut state = State::new(METAL);
         for cell in 0..216 {
             let at = [cell % 6, cell / 6 % 6, cell / 36].map(|i| f64::from(i) + 0.5);
             state.push(Particle {
@@ -310,7 +314,7 @@ mod tests {
         let state = block();
         let plane = |axis, at, outward| Plane { axis, at, outward };
         let faces = (0..3).flat_map(|axis| [plane(axis, 0.0, -1.0), plane(axis, 6.0, 1.0)]);
-        let mut rest = Rest::new(1.0, faces.collect(), &[]);
+        let mut rest = Rest::new(METAL, faces.collect(), &[]);
         rest.update(&state);
         // The sum of r^2 W along x is the same for the corner as for the middle.
         let moment = |a: usize| -> f64 {
@@ -344,7 +348,7 @@ mod tests {
     }
 
     fn after_changes(state: &mut State, faces: &[Plane]) {
-        let new = || Rest::new(1.0, faces.to_vec(), &[]);
+        let new = || Rest::new(METAL, faces.to_vec(), &[]);
         state.metal.column_mut(&PHASE)[80] = phase::SOLID;
         let mut rest = new();
         rest.update(state);

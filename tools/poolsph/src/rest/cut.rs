@@ -30,6 +30,9 @@ const DAMPING: f64 = 0.4;
 const SETTLED: f64 = 1e-6;
 const MOST: f64 = 4.0;
 
+/// Part of what two directions lack by which they differ, and lack alike.
+const ALIKE: f64 = 1e-6;
+
 /// A particle whose sum is cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Cut {
@@ -43,7 +46,7 @@ struct Cut {
 impl Cut {
     /// (e . t)^8 and (e . u)^8 for a direction of any length.
     fn along(&self, way: Vector) -> [f64; 2] {
-        let size = squared(way);
+        let size = squared(way).max(f64::MIN_POSITIVE);
         self.flat.map(|t| {
             let square = dot(way, t) * dot(way, t) / size;
             square.powi(4)
@@ -62,16 +65,23 @@ fn dot_of_two(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// The two directions across n in which a sum lacks most and least, by what its moments lack.
 fn across(normal: Vector, lacks: [f64; 6]) -> [Vector; 2] {
-    // Any direction that is not n serves to begin with.
-    let least = (0..3).min_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs()));
+    // Any direction that is not n serves to begin with: the first of those farthest from it, whatever their rounding.
+    let least = normal
+        .iter()
+        .fold(f64::INFINITY, |least, x| least.min(x.abs()));
+    let first = normal.iter().position(|x| x.abs() <= least + ALIKE);
     let mut axis = [0.0; 3];
-    axis[least.unwrap_or(0)] = 1.0;
+    axis[first.unwrap_or(0)] = 1.0;
     let t = unit(cross(normal, axis)).unwrap_or(axis);
     let u = cross(normal, t);
     // Principal directions of a symmetric matrix of two rows.
     let both = std::array::from_fn(|k| (t[k] + u[k]) * FRAC_1_SQRT_2);
     let [a, b] = [along_both(lacks, t), along_both(lacks, u)];
     let mixed = along_both(lacks, both) - 0.5 * (a + b);
+    // Where both lack alike, as on a flat face, rounding would turn them.
+    if (2.0 * mixed).hypot(a - b) <= ALIKE * (a.abs() + b.abs()) {
+        return [t, u];
+    }
     let (sin, cos) = (0.5 * (2.0 * mixed).atan2(a - b)).sin_cos();
     [
         std::array::from_fn(|k| cos * t[k] + sin * u[k]),
@@ -328,6 +338,7 @@ mod tests {
             places,
             faces,
             reach: 2.0,
+            spacing: 1.0,
         }
     }
 
@@ -365,6 +376,25 @@ mod tests {
             cuts.factor(a, b, [0.0, 0.0, 1.0]).to_bits(),
             1.0_f64.to_bits()
         );
+    }
+
+    #[test]
+    fn rounding_turns_no_face() {
+        // The same body elsewhere and at another scale has the same factors.
+        let plain = block(|[_, _, k]| k < 4);
+        let of = |places: &[Vector], size: f64| {
+            let unit: Vec<Vector> = places.iter().map(|x| x.map(|x| x / size)).collect();
+            Cuts::of(&rows(&unit), &standing(&unit, &[]))
+        };
+        let here = of(&plain, 1.0);
+        let there: Vec<Vector> = plain.iter().map(|x| x.map(|x| 0.37e-3 * x + 0.4)).collect();
+        let there = of(&there, 0.37e-3);
+        assert_eq!(here.all.len(), there.all.len());
+        for (a, b) in here.all.iter().zip(&there.all) {
+            for way in [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.3, -0.8, 0.2]] {
+                assert!((a.more(way) - b.more(way)).abs() < 1e-5, "{a:?} {b:?}");
+            }
+        }
     }
 
     #[test]

@@ -10,8 +10,8 @@ use super::{Link, Plane, around, cell};
 /// Particles by cells as wide as the kernel reaches.
 type Cells = BTreeMap<[i32; 3], Vec<u32>>;
 
-/// A particle stands at a place within this part of the reach of the kernel.
-const STANDS: f64 = 0.4;
+/// A particle stands at a place within this part of a spacing: beyond a face none is nearer than one.
+const STANDS: f64 = 0.8;
 /// Part of its greatest size up to which a sum of r W is none.
 const EVEN: f64 = 1e-9;
 
@@ -20,8 +20,9 @@ pub(super) struct Standing<'a> {
     pub(super) places: &'a [Vector],
     /// Named faces, beyond which nothing lacks.
     pub(super) faces: &'a [Plane],
-    /// Reach of the kernel \[m\].
+    /// Reach of the kernel, and spacing of the particles \[m\].
     pub(super) reach: f64,
+    pub(super) spacing: f64,
 }
 
 /// A sum that is complete as far as opposite places tell: what has nothing opposite counts twice.
@@ -74,7 +75,7 @@ impl Standing<'_> {
             return Lacks::default();
         }
         let at = self.places[a];
-        let near = (STANDS * self.reach).powi(2);
+        let near = (STANDS * self.spacing).powi(2);
         let stands =
             |place: Vector, b: u32| squared(difference(self.places[b as usize], place)) < near;
         let mut named = false;
@@ -118,11 +119,15 @@ impl Standing<'_> {
 
     /// Direction of the sum of r W over what has nothing opposite; none where all has, or where the sum has no direction.
     pub(super) fn normal(&self, a: usize, row: &[Link], lacks: &Lacks) -> Option<Vector> {
-        let mut sum = [0.0; 3];
-        for (link, _) in row.iter().zip(&lacks.each).filter(|(_, lacks)| **lacks) {
+        let (mut sum, mut size) = ([0.0; 3], 0.0);
+        for (link, lacks) in row.iter().zip(&lacks.each) {
             let way = difference(self.places[link.to as usize], self.places[a]);
-            sum = along(sum, link.weight, way);
+            size += link.weight * self.reach;
+            if *lacks {
+                sum = along(sum, link.weight, way);
+            }
         }
-        unit(sum)
+        // What stands at the very reach of the kernel weighs nothing but rounding.
+        unit(sum).filter(|_| squared(sum) > (EVEN * size).powi(2))
     }
 }

@@ -21,7 +21,7 @@ use crate::mirror::Mirror;
 use crate::weld::Weld;
 
 /// Part of the rise to the melting point above which solid metal is near the pool.
-const NEAR: f64 = 0.6;
+pub(super) const NEAR: f64 = 0.6;
 /// Particles of a frame that are compared, and frames.
 const SAMPLES: usize = 120;
 pub(super) const FRAMES: usize = 3;
@@ -279,7 +279,8 @@ fn damped(slopes: &[Vec<f64>; 4], misfit: &[f64], damping: f64) -> [f64; 4] {
 
 /// What is to be said of a fit that leaves so much.
 pub(super) fn missed(metal: &Metal, left: f64) -> Option<String> {
-    (left > TOLD).then(|| {
+    let close = left <= TOLD;
+    (!close).then(|| {
         format!(
             "conduction from no double ellipsoid warms the metal around this pool as the weld does: {:.0} K are left in the mean square, \
              of {:.0} K up to the melting point. Metal that flows carries heat where conduction does not, and a pool that still grows \

@@ -14,7 +14,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use torch::Torch;
 
-use super::fit::{FRAMES, Going, Metal, Sample, missed, samples};
+use super::fit::{FRAMES, Going, Metal, NEAR, Sample, missed, samples};
 use super::pool::Pool;
 use crate::files::{note, print, warn};
 use crate::mirror::Mirror;
@@ -25,6 +25,9 @@ const GROWN: f64 = 2.0 / 3.0;
 
 /// Least part of a spacing that is a half axis of a pool.
 const RESOLVED: f64 = 0.1;
+
+/// Least number of particles that four half axes are fitted to.
+const LEAST: usize = 12;
 
 /// Prints the torch as JSON: an entry of the key `torches`. Half axes are fitted, or with `melt` those of the pool.
 pub(crate) fn run(file: &Path, melt: bool) -> Result<ExitCode, Failure> {
@@ -45,6 +48,13 @@ pub(crate) fn run(file: &Path, melt: bool) -> Result<ExitCode, Failure> {
     }
     let metal = Metal::of(&reader, &first, course.start.1)?;
     let near = course.samples(&reader, &metal)?;
+    if near.len() < LEAST {
+        return Err(told(&format!(
+            "{} particles of solid metal near the pool are too few for a fit: frames show none from {NEAR} of the way to the melting point \
+             on. With --melt the half axes are those of the pool itself",
+            near.len()
+        )));
+    }
     let going = Going {
         metal,
         power_w,
@@ -105,7 +115,9 @@ impl Course {
             }
         }
         if sources == 0 {
-            return Err(told("has no source whose pool could be measured"));
+            return Err(told(
+                "has no source that goes straight, and so no pool that could be measured",
+            ));
         }
         let (Some(from), Some(to)) = (ways.first(), ways.last().filter(|to| to.0 > ways[0].0))
         else {
@@ -164,12 +176,15 @@ impl Course {
     }
 }
 
-/// The torch of the scene, where it has a single one.
+/// The torch of the scene, where it has a single one that goes straight.
 fn torch(reader: &Reader) -> Option<Torch> {
-    match reader.header().scene.get("torches")?.as_array()?.as_slice() {
-        [torch] => Torch::deserialize(torch).ok(),
-        _ => None,
-    }
+    let torches = reader.header().scene.get("torches")?.as_array()?;
+    let [torch] = torches.as_slice() else {
+        return None;
+    };
+    let torch = Torch::deserialize(torch).ok()?;
+    let straight = torch.path.points_m.len() <= 2 && torch.path.weave.is_none();
+    straight.then_some(torch)
 }
 
 /// Where a torch stands \[m\].

@@ -132,7 +132,7 @@ impl Conduction {
             limit: metal.density * second / (6.0 * CROWDING * caloric.fastest() * zeroth),
             interval: u64::from(parameters.rest_interval_steps.max(1)),
             tolerance: parameters.exchange_tolerance_k,
-            rest: Rest::new(metal.smoothing_length, mirrors, &open),
+            rest: Rest::new(metal, mirrors, &open),
             open: Open::new(open, metal.spacing, parameters),
             held: Vec::new(),
             thermal: Vec::new(),
