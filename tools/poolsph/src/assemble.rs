@@ -39,6 +39,7 @@ use crate::scene::{Scene, StartState};
 use crate::source::Path;
 use crate::stage::Stage;
 use crate::state::State;
+use crate::state::slag::SLAG;
 use crate::surface::Surface;
 
 /// A run ready to start.
@@ -88,6 +89,10 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     // which the stages keep at a temperature.
     let mut state = State::new(scene.metal());
     source.stages(&mut state, Vec::new(), None)?;
+    if let Some(slag) = scene.slag {
+        state.metal.declare(&SLAG);
+        state.slag = Some(slag.slag());
+    }
     let filled = metal::fill(
         scene,
         inputs,
@@ -95,6 +100,7 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
         &mut state,
         source.caloric.as_deref(),
     )?;
+    metal::mark_slag(scene, &filled, &mut state);
     state.faces = faces;
     fitting(&state).map_err(|fault| fault.within("/faces"))?;
     if let Some(heat) = &scene.heat {
@@ -211,7 +217,11 @@ impl<'a> Source<'a> {
         self.forces(&mut parts)?;
         parts.when(Room::Flow, "flow", scene.flow.as_ref(), |flow| {
             let law = self.viscosity(flow)?;
-            Ok(Box::new(Motion::new(flow.clone(), law, scene.metal())))
+            let motion = Motion::new(flow.clone(), law, scene.metal());
+            Ok(Box::new(match scene.slag {
+                Some(slag) => motion.beside(slag.slag()),
+                None => motion,
+            }))
         })?;
         parts.stages().for_each(|stage| stage.declare(state));
         if scene.output.heat_received {
@@ -322,7 +332,8 @@ impl<'a> Source<'a> {
         })?;
         parts.when(Room::Forces, "tension", scene.tension, |tension| {
             if scene.even() {
-                return Ok(Box::new(Capillary::new(tension)));
+                let slag = scene.slag.map(motion::slag::Parameters::slag);
+                return Ok(Box::new(Capillary::new(tension, slag)));
             }
             Ok(Box::new(Tension::new(tension, metal)))
         })

@@ -62,12 +62,15 @@ impl Balance {
         let (places, velocities) = (state.metal.column(&POSITION), state.metal.column(&VELOCITY));
         let (phases, wall) = (state.metal.column(&PHASE), state.metal.column(&WALL));
         let metal = || (0..state.len()).filter(|a| !marked(wall, *a));
-        let count = metal().count() as f64;
         let mut momentum = [0.0; 3];
         let mut kinetic = 0.0;
-        let mut height = 0.0;
+        // Particles by their mass in that of one of metal, and their heights.
+        let (mut count, mut height) = (0.0, 0.0);
         for a in metal() {
-            height += places[a][2];
+            let part = state.mass(a) / mass;
+            let mass = part * mass;
+            count += part;
+            height += part * places[a][2];
             if phases[a] != phase::SOLID {
                 let u = velocities[a];
                 (0..3).for_each(|k| momentum[k] += mass * u[k]);

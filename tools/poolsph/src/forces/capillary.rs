@@ -10,20 +10,25 @@ use steps::Limit;
 use crate::near::{Near, Role};
 use crate::stage::{Stage, StageError};
 use crate::state::State;
+use crate::state::slag::Slag;
 
 use super::tension::Parameters;
 
 /// The stage that says what tension the surface has.
 pub struct Capillary {
     tension: f64,
+    /// That of slag beside the metal.
+    slag: Option<f64>,
 }
 
 impl Capillary {
-    /// The tension of a surface.
+    /// The tension of the surface of metal, and of slag beside it.
     #[must_use]
-    pub fn new(parameters: Parameters) -> Self {
+    pub fn new(parameters: Parameters, slag: Option<Slag>) -> Self {
+        let tension = parameters.surface_tension_n_m;
         Self {
-            tension: parameters.surface_tension_n_m,
+            tension,
+            slag: slag.map(|slag| slag.surface_tension.unwrap_or(tension)),
         }
     }
 }
@@ -31,8 +36,14 @@ impl Capillary {
 /// Longest step for waves of the surface of `near` \[s\]; infinite without tension.
 #[must_use]
 pub fn limit(near: &Near, metal: Matter) -> f64 {
-    let greatest = near.tension.iter().fold(0.0, |most: f64, x| most.max(*x));
-    longest(metal, greatest)
+    let each = near.tension.iter().enumerate();
+    // By the tension that metal would need for waves as fast.
+    let greatest = each.fold(0.0, |most: f64, (a, x)| most.max(*x / near.heaviness(a)));
+    let between = near.liquids.as_ref().map_or(0.0, |liquids| {
+        let [metal, slag] = liquids.densities();
+        liquids.tension * metal / (metal + slag)
+    });
+    longest(metal, greatest.max(between))
 }
 
 /// sqrt(rho d^3/(2 pi gamma)) \[s\].
@@ -48,7 +59,13 @@ impl Stage for Capillary {
     fn limit(&self, state: &State) -> Option<Limit> {
         // The motion divides the step by it.
         let liquid = state.near.liquid_count() > 0;
-        liquid.then(|| Limit::dividing("capillary", longest(state.metal.matter, self.tension)))
+        let metal = longest(state.metal.matter, self.tension);
+        let slag = self.slag.zip(state.slag).map(|(tension, slag)| {
+            let lighter = slag.density / state.metal.matter.density;
+            longest(state.metal.matter, tension / lighter)
+        });
+        let least = slag.map_or(metal, |slag| slag.min(metal));
+        liquid.then(|| Limit::dividing("capillary", least))
     }
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
@@ -63,6 +80,13 @@ impl Stage for Capillary {
         near.tension.clear();
         near.tension
             .extend(near.role[..near.force.len()].iter().map(of));
+        if let (Some(tension), Some(liquids)) = (self.slag, &near.liquids) {
+            for (a, each) in near.tension.iter_mut().enumerate() {
+                if liquids.is_slag(a) {
+                    *each = tension;
+                }
+            }
+        }
         Ok(())
     }
 }

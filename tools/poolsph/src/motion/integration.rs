@@ -19,6 +19,7 @@ use super::viscosity::Viscosity;
 use crate::forces::capillary;
 use crate::near::{Near, Role};
 use crate::stage::{Stage, StageError};
+use crate::state::slag::Slag;
 use crate::state::{PHASE, State, TEMPERATURE, VELOCITY, phase};
 use crate::sweep::GRAIN;
 
@@ -84,21 +85,28 @@ impl Motion {
         }
     }
 
+    /// The same with slag beside the metal.
+    #[must_use]
+    pub fn beside(mut self, slag: Slag) -> Self {
+        self.viscosity = self.viscosity.beside(slag);
+        self
+    }
+
     /// u* = u + dt (g + f/rho + viscous acceleration); solid particles rest.
-    fn predict(&mut self, near: &Near, metal: Matter, dt: f64) {
+    fn predict(&mut self, near: &Near, dt: f64) {
         let gravity = self.parameters.gravity_m_s2.unwrap_or_default();
         let points = near.role.par_iter().zip(&near.velocity).zip(&near.force);
         points
+            .enumerate()
             .with_min_len(GRAIN)
-            .map(|((role, u), force)| match role {
-                Role::Liquid => along(along(*u, dt, gravity), dt / metal.density, *force),
+            .map(|(a, ((role, u), force))| match role {
+                Role::Liquid => along(along(*u, dt, gravity), dt / near.density(a), *force),
                 _ => [0.0; 3],
             })
             .collect_into_vec(&mut self.predicted);
         let (around, predicted) = (&mut self.around, &mut self.predicted);
         if self.parameters.method == Method::DivergenceFree {
-            self.viscosity
-                .apply_between_faces(near, metal, dt, predicted);
+            (self.viscosity).apply_between_faces(near, dt, predicted);
             let viscosity = &self.viscosity;
             self.divergence_free.begin(near, viscosity);
             (self.divergence_free).slacken(near, viscosity, dt, predicted);
@@ -112,7 +120,7 @@ impl Motion {
 
     fn substep(&mut self, near: &mut Near, step: Step, borne: [f64; 3]) {
         let dt = step.dt;
-        self.predict(near, step.metal, dt);
+        self.predict(near, dt);
         let tolerance = Tolerance {
             density: self.parameters.density_tolerance,
             sweeps_min: self.parameters.sweeps_min,

@@ -11,6 +11,7 @@ pub mod parameters;
 pub mod projection;
 pub mod push;
 mod settled;
+pub mod slag;
 pub mod step;
 pub mod viscosity;
 

@@ -42,16 +42,21 @@ use super::lattice::Lattice;
 use super::law::Law;
 use crate::near::{Near, Role};
 use crate::stage::StageError;
+use crate::state::slag::Slag;
 use crate::sweep::GRAIN;
 
 /// Newtonian viscosity of the liquid.
 #[derive(Debug, Clone)]
 pub struct Viscosity {
     law: Law,
+    metal: Matter,
+    /// mu of slag beside the metal \[Pa s\].
+    slag: Option<f64>,
     /// 2 D / (rho lambda N) \[m3/s per Pa s\].
     scale: f64,
-    /// Largest explicit step \[s\].
+    /// Largest explicit step \[s\], and that times mu/rho \[m2\].
     limit: f64,
+    spread: f64,
     /// 1/nu \[1/m3\].
     number: f64,
     /// mu of each particle \[Pa s\], `[m]` in the order of [`Near`]; empty where it is the same for all.
@@ -94,6 +99,9 @@ impl Viscosity {
             },
             law,
             limit: 1.0 / (largest * number),
+            spread: moment / (6.0 * number),
+            metal,
+            slag: None,
             number: lattice.number,
             filled: [number, lattice.moment / metal.volume()],
             inverse: Vec::new(),
@@ -102,16 +110,24 @@ impl Viscosity {
         }
     }
 
+    /// The same with slag beside the metal.
+    #[must_use]
+    pub fn beside(mut self, slag: Slag) -> Self {
+        self.limit = self.spread / slag.spreading(self.law.largest(), self.metal);
+        self.slag = Some(slag.viscosity);
+        self
+    }
+
     /// True if there is any.
     #[must_use]
     pub fn acts(&self) -> bool {
-        self.law.largest() > 0.0
+        self.law.largest() > 0.0 || self.slag.is_some_and(|mu| mu > 0.0)
     }
 
     /// True if one viscosity holds for all liquid.
     #[must_use]
     pub fn uniform(&self) -> bool {
-        matches!(self.law, Law::Uniform(_))
+        matches!(self.law, Law::Uniform(_)) && self.slag.is_none()
     }
 
     /// Takes the viscosity of each particle from its temperature \[K\], by index in the state.
@@ -123,14 +139,23 @@ impl Viscosity {
             return Ok(());
         }
         let law = &self.law;
-        for (&id, role) in near.id.iter().zip(&near.role) {
-            if *role == Role::Liquid {
-                law.covers(temperature[id as usize])?;
+        if let Law::OfTemperature { .. } = law {
+            for (&id, role) in near.id.iter().zip(&near.role) {
+                if *role == Role::Liquid {
+                    law.covers(temperature[id as usize])?;
+                }
             }
         }
         let ids = near.id.par_iter().with_min_len(GRAIN);
         ids.map(|&id| law.at(temperature, id as usize))
             .collect_into_vec(&mut self.each);
+        if let (Some(mu), Some(liquids)) = (self.slag, &near.liquids) {
+            for (a, each) in self.each.iter_mut().enumerate() {
+                if liquids.is_slag(a) {
+                    *each = mu;
+                }
+            }
+        }
         Ok(())
     }
 
@@ -184,7 +209,6 @@ impl Viscosity {
     pub fn apply_between_faces(
         &mut self,
         near: &Near,
-        metal: Matter,
         dt: f64,
         predicted: &mut [[f64; 3]],
     ) {
@@ -208,7 +232,6 @@ impl Viscosity {
         let (law, each, inverse) = (&self.law, &self.each, &self.inverse);
         let largest = law.largest();
         let mu = |a: usize| if each.is_empty() { largest } else { each[a] };
-        let part = dt / metal.density;
         near.each_row(predicted, |a, row, out| {
             if near.role[a] != Role::Liquid {
                 return;
@@ -225,7 +248,7 @@ impl Viscosity {
                 };
                 sum = along(sum, -slope * mean * (m + inverse[b]), difference(to, u));
             }
-            *out = along(*out, part, sum);
+            *out = along(*out, dt / near.density(a), sum);
         });
     }
 

@@ -23,6 +23,23 @@ pub enum StartState {
     Wall,
 }
 
+/// Which of two liquids a body is of.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Material {
+    /// The metal.
+    #[default]
+    Metal,
+    /// The slag of the key `slag`.
+    Slag,
+}
+
+impl Material {
+    fn is_metal(&self) -> bool {
+        *self == Self::Metal
+    }
+}
+
 /// A plane that cuts a body.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -42,6 +59,9 @@ pub struct BodyScene {
     pub shape: Shape,
     /// Solid, liquid or wall.
     pub state: StartState,
+    /// Metal, or the second liquid of the key `slag`.
+    #[serde(default, skip_serializing_if = "Material::is_metal")]
+    pub material: Material,
     /// u at the start \[m/s\], each component a number or a formula in x, y, z, r; rest if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m/s"))]

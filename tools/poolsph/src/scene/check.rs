@@ -68,6 +68,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
     faults.extend(twice(scene));
     faults.extend(beside(scene));
     faults.extend(begun(scene));
+    faults.extend(super::slag::faults(scene));
     let sizes = super::size::faults(scene);
     if sizes.is_empty() {
         faults.extend(super::lattice::faults(scene));

@@ -8,6 +8,7 @@ mod odd;
 mod older;
 mod output;
 mod size;
+mod slag;
 mod time;
 
 use particles::{Column, Matter};
@@ -16,7 +17,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use torch::Torch;
 
-pub use body::{BodyScene, CutScene, StartState};
+pub use body::{BodyScene, CutScene, Material, StartState};
 pub use check::faults;
 pub use lattice::Lattice;
 pub use odd::{doubts, notes};
@@ -65,6 +66,9 @@ pub struct Scene {
     /// Motion of the liquid; absent: nothing moves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flow: Option<motion::Parameters>,
+    /// A second liquid that does not mix with the metal, such as slag upon a pool; absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slag: Option<motion::slag::Parameters>,
     /// When the liquid begins to move; absent: at once.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flow_start: Option<heat::FlowStart>,

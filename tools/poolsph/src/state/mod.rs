@@ -5,12 +5,14 @@
 //! life; new ones are appended, so that row and number are one.
 
 pub mod near;
+pub mod slag;
 
 use particles::{Column, Ids, Matter, POSITION, Set};
 
 use crate::faces::Faces;
 use crate::source::Place;
 use near::Near;
+use slag::Slag;
 
 /// u \[m/s\]; zero for solid ones.
 pub const VELOCITY: Column<[f64; 3]> = Column::new("velocity", "m/s", [0.0; 3]).saved().shown();
@@ -68,6 +70,8 @@ pub struct State {
     pub near: Near,
     /// Grains beside the metal, if there are any.
     pub grains: Option<Set>,
+    /// What the slag has of its own, if there is any.
+    pub slag: Option<Slag>,
 }
 
 /// One particle to be appended.
@@ -115,6 +119,19 @@ impl State {
             faces: Faces::default(),
             near: Near::new(matter),
             grains: None,
+            slag: None,
+        }
+    }
+
+    /// Mass of a particle \[kg\].
+    #[must_use]
+    pub fn mass(&self, a: usize) -> f64 {
+        let matter = self.metal.matter;
+        match self.slag {
+            Some(slag) if marked(self.metal.column(&slag::SLAG), a) => {
+                slag.density * matter.volume()
+            }
+            _ => matter.mass(),
         }
     }
 

@@ -81,9 +81,10 @@ impl Cohesion {
     ) {
         self.count(near, filled);
         let few = &self.few;
-        let (d, share) = (filled.spacing, dt / self.mass);
+        let d = filled.spacing;
         let closest = (CLOSE[1] * d).powi(2);
-        let (strength, mass) = (self.strength, self.mass);
+        let strength = self.strength;
+        let mass = |a: usize| self.mass * near.heaviness(a);
         self.changes.resize(near.len(), Change::default());
         near.each_row(&mut self.changes, |a, row, change| {
             *change = Change::default();
@@ -111,9 +112,14 @@ impl Cohesion {
                 } else {
                     pulled
                 };
-                let damping = DAMPED * (2.0 - q).clamp(0.0, 1.0) * (gamma * mass).sqrt();
+                let both = if flows {
+                    0.5 * (mass(a) + mass(of))
+                } else {
+                    mass(a)
+                };
+                let damping = DAMPED * (2.0 - q).clamp(0.0, 1.0) * (gamma * both).sqrt();
                 let force = pulled * strength * gamma * d * pull(q) + held * damping * apart;
-                change.velocity = along(change.velocity, share * force / far, way);
+                change.velocity = along(change.velocity, dt / mass(a) * force / far, way);
                 let overlap = PARTED * (CLOSE[0] * d - far).max(0.0);
                 let theirs = if flows { 0.5 } else { 1.0 };
                 change.place = along(change.place, -theirs * overlap / far, way);

@@ -32,9 +32,17 @@ pub(super) struct GradDiv {
 }
 
 impl GradDiv {
-    /// Damps the divergence of `u` by the operators of `rows`, between particles `d` apart \[m\].
-    pub(super) fn damp(&mut self, near: &Near, rows: &[Sums], d: f64, u: &mut [[f64; 3]]) {
-        self.diverge(near, rows, u);
+    /// Damps the divergence of `u` by the operators of `rows`, between particles `d` apart \[m\], but where two liquids slip along one
+    /// another.
+    pub(super) fn damp(
+        &mut self,
+        near: &Near,
+        rows: &[Sums],
+        d: f64,
+        slips: impl Fn(usize) -> bool + Sync,
+        u: &mut [[f64; 3]],
+    ) {
+        self.diverge(near, rows, slips, u);
         let stretched = &self.stretched;
         self.change.resize(near.len(), [0.0; 3]);
         near.each_row(
@@ -60,13 +68,19 @@ impl GradDiv {
             },
         );
         let part = STRENGTH * d * d;
-        for (u, change) in u.iter_mut().zip(&self.change) {
-            *u = along(*u, part, *change);
+        for (a, (u, change)) in u.iter_mut().zip(&self.change).enumerate() {
+            *u = along(*u, part * near.slowness(a), *change);
         }
     }
 
     /// Finds (D u) B.
-    fn diverge(&mut self, near: &Near, rows: &[Sums], u: &[[f64; 3]]) {
+    fn diverge(
+        &mut self,
+        near: &Near,
+        rows: &[Sums],
+        slips: impl Fn(usize) -> bool + Sync,
+        u: &[[f64; 3]],
+    ) {
         self.moved.clear();
         self.moved.extend_from_slice(u);
         near.complete(&mut self.moved, |u, _, turn| turn.vector(u));
@@ -78,7 +92,7 @@ impl GradDiv {
             #[inline(always)]
             |a, row, stretched| {
                 *stretched = [0.0; 6];
-                if near.role[a] != Role::Liquid || (tense && rows[a].missing > 0.0) {
+                if near.role[a] != Role::Liquid || (tense && rows[a].missing > 0.0) || slips(a) {
                     return;
                 }
                 let inverse = rows[a].present;
@@ -149,7 +163,7 @@ mod tests {
 
     fn damped(near: &Near, rows: &[Sums], u: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let mut damped = u.to_vec();
-        GradDiv::default().damp(near, rows, METAL.spacing, &mut damped);
+        GradDiv::default().damp(near, rows, METAL.spacing, |_| false, &mut damped);
         damped
     }
 

@@ -56,9 +56,14 @@ impl Islands {
         std::array::from_fn(|k| if held[k] { vector[k] } else { 0.0 })
     }
 
-    /// Takes from the particles of every body, along the axes on which nothing holds it, what the mean of `slope` has over
-    /// that of `upon`.
-    pub(super) fn balance(&self, slope: &mut [[f64; 3]], upon: impl Fn(usize) -> [f64; 3]) {
+    /// Takes from the particles of every body, along the axes on which nothing holds it, what the mean of `slope` by the `weight` of
+    /// each has over that of `upon`.
+    pub(super) fn balance(
+        &self,
+        slope: &mut [[f64; 3]],
+        weight: impl Fn(usize) -> f64,
+        upon: impl Fn(usize) -> [f64; 3],
+    ) {
         let ends = self.begins.iter().skip(1).copied();
         let ends = ends.chain([self.members.len()]);
         for (&begin, end) in self.begins.iter().zip(ends) {
@@ -67,16 +72,18 @@ impl Islands {
             if held == [true; 3] {
                 continue;
             }
-            let mut sum = body.iter().fold([0.0; 3], |sum, b| {
-                let b = *b as usize;
-                along(along(sum, 1.0, slope[b]), -1.0, upon(b))
-            });
+            let (mut sum, mut all) = ([0.0; 3], 0.0);
+            for b in body.iter().map(|b| *b as usize) {
+                let part = weight(b);
+                sum = along(along(sum, part, slope[b]), -part, upon(b));
+                all += part;
+            }
             for (sum, held) in sum.iter_mut().zip(held) {
                 if held {
                     *sum = 0.0;
                 }
             }
-            let part = -1.0 / body.len() as f64;
+            let part = -1.0 / all;
             for b in body {
                 slope[*b as usize] = along(slope[*b as usize], part, sum);
             }

@@ -34,6 +34,7 @@ mod cohesion;
 mod excess;
 mod filled;
 mod grad_div;
+mod interface;
 mod islands;
 mod normals;
 mod openness;
@@ -62,6 +63,7 @@ use self::cohesion::Cohesion;
 use self::excess::Excess;
 use self::filled::Filled;
 use self::grad_div::GradDiv;
+use self::interface::Interface;
 use self::islands::Islands;
 use self::normals::Normals;
 use self::operators::Sums;
@@ -104,6 +106,7 @@ pub struct DivergenceFree {
     weight: Weight,
     /// grad p \[Pa/m\].
     slope: Vec<[f64; 3]>,
+    interface: Interface,
     islands: Islands,
     normals: Normals,
     pull: Pull,
@@ -130,12 +133,13 @@ impl DivergenceFree {
             pushing: Vec::new(),
             weight: Weight::default(),
             slope: Vec::new(),
+            interface: Interface::default(),
             islands: Islands::default(),
             normals: Normals::new(metal),
             pull: Pull::new(metal),
             ripples: Ripples::default(),
             shift: Shift::default(),
-            traction: Traction::new(metal),
+            traction: Traction::default(),
         }
     }
 
@@ -158,8 +162,8 @@ impl DivergenceFree {
     ) {
         if viscosity.acts() {
             let pull = self.traction.pull(near, viscosity, &self.normals);
-            self.islands.balance(pull, |_| [0.0; 3]);
-            self.traction.apply(dt, predicted);
+            self.islands.balance(pull, |_| 1.0, |_| [0.0; 3]);
+            self.traction.apply(near, dt, predicted);
         }
     }
 
@@ -178,10 +182,21 @@ impl DivergenceFree {
         }
         self.weight
             .lift(near, &self.islands, predicted, borne, step);
+        if let Some(middle) = self.interface.find(near, step.metal) {
+            self.weight.about(middle);
+        }
+        (self.interface).meet(near, &self.islands, &self.weight, self.filled);
         self.look(near);
-        if !near.tension.is_empty() {
+        let between = (near.liquids.as_ref()).is_some_and(|liquids| liquids.tension > 0.0);
+        let free = !near.tension.is_empty();
+        if free || between {
             let part = step.dt / capillary::limit(near, step.metal);
-            self.ripples.damp(near, &self.rows, part, predicted);
+            let (rows, interface) = (&self.rows, &self.interface);
+            let surface =
+                |a: usize| (free && rows[a].missing > 0.0) || (between && interface.beside(a));
+            self.ripples.damp(near, surface, part, predicted);
+        }
+        if free {
             self.cohesion.pull(near, self.filled, step.dt, predicted);
         }
         self.sum(near, predicted);
@@ -208,7 +223,8 @@ impl DivergenceFree {
         self.differ(near);
         self.balance(near, gas);
         self.push(near, predicted, step);
-        (self.grad_div).damp(near, &self.rows, self.filled.spacing, predicted);
+        let beside = |a: usize| self.interface.beside(a);
+        (self.grad_div).damp(near, &self.rows, self.filled.spacing, beside, predicted);
         self.pull.release(near);
         solved
     }
@@ -216,8 +232,10 @@ impl DivergenceFree {
     /// Moves particles to where they lie evenly, after a step of `dt` \[s\].
     pub fn even(&mut self, near: &mut Near, dt: f64) {
         let (rows, normals) = (&self.rows, &self.normals);
-        let change = self.shift.find(near, self.filled, rows, normals, dt);
-        self.islands.balance(change, |_| [0.0; 3]);
+        let interface = &self.interface;
+        let way = |a, way| interface.along(a, way);
+        let change = (self.shift).find(near, self.filled, rows, normals, dt, way);
+        (self.islands).balance(change, |b| near.heaviness(b), |_| [0.0; 3]);
         self.shift.apply(near);
         self.cohesion.part(near);
     }
@@ -265,6 +283,7 @@ impl DivergenceFree {
                 }
             },
         );
+        self.interface.slip(near, &self.moved, &mut self.rows);
     }
 
     /// A surface of less than a few particles is none: it would bear all that the volume of a closed box is in error.
@@ -284,6 +303,7 @@ impl DivergenceFree {
         self.poisson.resize(near.len(), scale);
         self.poisson.closed = rows.iter().all(|row| row.missing <= 0.0);
         let excess = Excess::of(near, filled, step, self.poisson.closed);
+        let interface = &self.interface;
         self.pressure.resize(near.len(), 0.0);
         let columns = self.poisson.equations.par_iter_mut();
         let columns = columns.zip(&mut self.pressure).zip(rows).enumerate();
@@ -297,9 +317,11 @@ impl DivergenceFree {
                 let gone = excess.goes(near, a, row) - step.dt * row.divergence;
                 // What walls enclose so that no liquid tells its pressure is as far from the surface as from the liquid.
                 let enclosed = (LEAST * filled.weight - row.liquid - 2.0 * row.missing).max(0.0);
-                let beyond = 2.0 * row.missing + enclosed;
-                let diagonal = row.liquid + beyond;
-                let right = gone * row.moment / (filled.moment * scale) + beyond * upon[a];
+                let beyond = (2.0 * row.missing + enclosed) / near.heaviness(a);
+                let [liquid, jump] = interface.terms(a, row);
+                let diagonal = liquid + beyond;
+                let right =
+                    gone * row.moment / (filled.moment * scale) + beyond * upon[a] + jump;
                 *equation = [diagonal as f32, right as f32];
             });
     }
@@ -313,6 +335,11 @@ impl DivergenceFree {
             &self.total
         };
         self.slope.resize(near.len(), [0.0; 3]);
+        if let Some(liquids) = &near.liquids {
+            let slope = &mut self.slope;
+            (self.interface).differ(near, liquids, rows, total, upon, slope);
+            return;
+        }
         near.each_row(
             &mut self.slope,
             #[inline(always)]
@@ -341,23 +368,27 @@ impl DivergenceFree {
             }
             let surface = along(near.position[a], 1.0, rows[a].outwards());
             let pressure = near.outer.get(a).map_or(0.0, |p| p - pull.at(a));
-            let pressure = pressure - weight.above(gas, islands, a, surface);
+            let pressure = pressure - weight.above(gas, near, islands, a, surface);
+            let pressure = pressure / near.heaviness(a);
             rows[a].open.map(|x| -2.0 * pressure * x / moment)
         };
-        self.islands.balance(&mut self.slope, upon);
+        let weight = |b: usize| near.heaviness(b);
+        islands.balance(&mut self.slope, weight, upon);
     }
 
     /// u = u* - dt/rho grad p.
     fn push(&self, near: &mut Near, predicted: &mut [[f64; 3]], step: Step) {
-        let (weight, islands, position) = (&self.weight, &self.islands, &near.position);
-        let points = near.virial.par_iter_mut().zip(predicted).zip(&near.role);
+        let (weight, islands) = (&self.weight, &self.islands);
+        let mut virials = std::mem::take(&mut near.virial);
+        let now = &*near;
+        let points = virials.par_iter_mut().zip(predicted).zip(&now.role);
         points
             .zip(&self.slope)
             .zip(&self.total)
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(|(a, ((((virial, u), role), slope), p))| {
-                let p = p + weight.known(islands, a, position[a]);
+                let p = p + weight.known(now, islands, a, now.position[a]);
                 if *role == Role::Liquid {
                     *virial += step.share * p;
                     *u = along(*u, -step.dt / step.metal.density, *slope);
@@ -365,6 +396,7 @@ impl DivergenceFree {
                     *virial = p;
                 }
             });
+        near.virial = virials;
     }
 
     /// Bytes held.
@@ -374,6 +406,7 @@ impl DivergenceFree {
             + 4 * self.last.capacity()
             + 8 * self.pushing.capacity()
             + self.poisson.bytes()
+            + self.interface.bytes()
             + self.islands.bytes()
             + self.normals.bytes()
             + self.cohesion.bytes()

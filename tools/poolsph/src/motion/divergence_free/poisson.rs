@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use neighbours::ROWS;
 
 use crate::motion::step::{Solved, Tolerance};
-use crate::near::{Near, Role};
+use crate::near::{Liquids, Near, Role};
 use crate::sweep::GRAIN;
 
 /// Chunks of rows per unit of parallel work.
@@ -161,8 +161,26 @@ impl Poisson {
     }
 }
 
+/// diagonal p_a - sum of w beta p_b of two liquids.
+fn multiply_both(near: &Near, both: &Liquids, equations: &[[f32; 2]], p: &[f32], out: &mut [f32]) {
+    near.each_row(out, |a, row, out| {
+        *out = 0.0;
+        if near.role[a] == Role::Liquid {
+            let shares = both.shares(a);
+            let rows = row.index.iter().map(|b| *b as usize).zip(row.slope);
+            let sum = rows.fold(0.0_f32, |sum, (b, slope)| {
+                sum + slope * shares[usize::from(both.is_slag(b))] * p[b]
+            });
+            *out = equations[a][0] * p[a] + sum;
+        }
+    });
+}
+
 /// diagonal p_a - sum of w p_b; `p` is zero for solid particles.
 fn multiply(near: &Near, equations: &[[f32; 2]], p: &[f32], out: &mut [f32]) {
+    if let Some(both) = &near.liquids {
+        return multiply_both(near, both, equations, p, out);
+    }
     near.each_row(
         out,
         #[inline(always)]

@@ -25,13 +25,22 @@ impl DivergenceFree {
     /// eq. 27), with the acceleration f of the prediction; beyond faces that mirror, from each particle to its image.
     pub(super) fn reach_walls(&mut self, near: &Near, step: Step) {
         let (pressure, mut total) = (&self.pressure, std::mem::take(&mut self.total));
-        self.reach(near, step, |a| f64::from(pressure[a]), &mut total);
+        let own = |a: usize| f64::from(pressure[a]);
+        self.reach(near, step, own, 1.0, &mut total);
         self.total = total;
+        if let Some(liquids) = &near.liquids {
+            let [metal, slag] = liquids.densities();
+            let mut beyond = std::mem::take(&mut self.interface.beyond);
+            let pressure = &self.pressure;
+            let own = |a: usize| f64::from(pressure[a]);
+            self.reach(near, step, own, slag / metal, &mut beyond);
+            self.interface.beyond = beyond;
+        }
     }
 
     /// Whether the velocity is reflected.
     pub(super) fn reflects(&self, near: &Near) -> bool {
-        self.poisson.closed && near.tension.is_empty()
+        self.poisson.closed && near.tension.is_empty() && near.liquids.is_none()
     }
 
     /// The pressure that pushes: p, and once more what it has in common with that of the last step. Impacts push once.
@@ -42,20 +51,22 @@ impl DivergenceFree {
             let [now, before] = [pressure[a], last[a]].map(f64::from);
             now + REFLECTED * common(now, before)
         };
-        self.reach(near, step, push, &mut pushing);
+        self.reach(near, step, push, 1.0, &mut pushing);
         self.pushing = pushing;
     }
 
-    /// What `pressure` of the liquid makes at walls, as [`DivergenceFree::reach_walls`] says.
+    /// What `pressure` of the liquid makes at walls, as [`DivergenceFree::reach_walls`] says, for liquid of so many times the density of
+    /// the metal: p' of the other is another part of the same pressure.
     fn reach(
         &self,
         near: &Near,
         step: Step,
         pressure: impl Fn(usize) -> f64 + Sync,
+        heaviness: f64,
         total: &mut Vec<f64>,
     ) {
         let change = &self.change;
-        let inertia = step.metal.density / step.dt;
+        let inertia = |a: usize| near.density(a) / step.dt;
         total.resize(near.len(), 0.0);
         near.each_row(total, |a, row, out| {
             *out = pressure(a);
@@ -64,7 +75,8 @@ impl DivergenceFree {
                 for (b, slope) in row.slopes().filter(|(b, _)| near.role[*b].flows()) {
                     let way = difference(near.position[a], near.position[b]);
                     let original = near.images().original(b);
-                    sum -= slope * (pressure(original) + inertia * dot(change[b], way));
+                    let seen = self.seen(near, original, near.position[a], heaviness);
+                    sum -= slope * (seen + pressure(original) + inertia(original) * dot(change[b], way));
                     weight -= slope;
                 }
                 *out = if weight > 0.0 { sum / weight } else { 0.0 };
@@ -72,8 +84,19 @@ impl DivergenceFree {
         });
         near.complete(total, |p, image, turn| {
             let of = near.images().original(image);
-            p + inertia * dot(change[of], turn.across(near.position[of]))
+            p + inertia(of) * dot(change[of], turn.across(near.position[of]))
         });
+    }
+}
+
+impl DivergenceFree {
+    /// What p' of the particle `b` lacks at the place `x` of what liquid of so many times the density of the metal has for the same p.
+    #[inline]
+    fn seen(&self, near: &Near, b: usize, x: [f64; 3], heaviness: f64) -> f64 {
+        if near.liquids.is_none() {
+            return 0.0;
+        }
+        (near.heaviness(b) - heaviness) * self.weight.of_metal(&self.islands, b, x)
     }
 }
 

@@ -16,7 +16,6 @@
 
 use shapes::frame::{along, difference, dot, squared};
 
-use super::operators::Sums;
 use crate::near::{Near, Role};
 
 /// Part of D^T D u that is taken in the time of the shortest waves of the surface.
@@ -52,12 +51,12 @@ fn liquid<'a>(
 }
 
 impl Ripples {
-    /// Damps the motion in `near.velocity` for a step of the `part` of the time of the shortest waves; `rows` tell where the
-    /// surface is.
+    /// Damps the motion in `near.velocity` for a step of the `part` of the time of the shortest waves at the particles of the
+    /// `surface`, free or between two liquids.
     pub(super) fn damp(
         &mut self,
         near: &Near,
-        rows: &[Sums],
+        surface: impl Fn(usize) -> bool + Sync,
         part: f64,
         predicted: &mut [[f64; 3]],
     ) {
@@ -65,7 +64,7 @@ impl Ripples {
         self.fit.resize(near.len(), [0.0; 4]);
         near.each_row(&mut self.fit, |a, row, fit| {
             *fit = [0.0; 4];
-            if near.role[a] == Role::Liquid && rows[a].missing > 0.0 {
+            if near.role[a] == Role::Liquid && surface(a) {
                 *fit = weights(liquid(near, a, row));
                 let far = liquid(near, a, row).map(|(_, w, x)| w * share(*fit, x).abs());
                 if far.sum::<f64>() > FAR {
@@ -104,8 +103,8 @@ impl Ripples {
                 }
             },
         );
-        for (u, change) in predicted.iter_mut().zip(&self.change) {
-            *u = along(*u, -part, *change);
+        for (a, (u, change)) in predicted.iter_mut().zip(&self.change).enumerate() {
+            *u = along(*u, -part * near.slowness(a), *change);
         }
     }
 

@@ -40,7 +40,7 @@ pub(super) struct Shift {
 }
 
 impl Shift {
-    /// Finds ways by the density at the beginning of the step of `dt` \[s\]; gives the changes of velocity \[m/s\], to be balanced over each
+    /// Finds ways by the density at the beginning of the step of `dt` \[s\], as far as they lead through no interface; gives the changes of velocity \[m/s\], to be balanced over each
     /// body.
     pub(super) fn find(
         &mut self,
@@ -49,6 +49,7 @@ impl Shift {
         rows: &[Sums],
         normals: &Normals,
         dt: f64,
+        along_interface: impl Fn(usize, [f64; 3]) -> [f64; 3] + Sync,
     ) -> &mut Vec<[f64; 3]> {
         let (d, own) = (filled.spacing, near.kernel.value(0.0));
         let [gain, most] = STRENGTH;
@@ -75,6 +76,7 @@ impl Shift {
                     }
                     way = along(way, -dot(way, normal), normal);
                 }
+                let way = along_interface(a, way);
                 let size = squared(way).sqrt();
                 let part = if size > FARTHEST * d {
                     FARTHEST * d / size

@@ -11,7 +11,6 @@
 //! the metal. Inside the transposed part is the gradient of the divergence, which is zero, so that over a closed surface it adds up to nothing. Without it a drop that stretches pays half
 //! of what it should, and one that turns as a whole is slowed. A shear along a plane surface has none of it.
 
-use particles::Matter;
 use rayon::prelude::*;
 use shapes::frame::{along, difference, dot, squared};
 
@@ -24,22 +23,13 @@ use crate::sweep::GRAIN;
 const FLAT: f64 = 1e-3;
 
 /// The force with its scratch.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Traction {
-    density: f64,
     /// 2 mu grad(u).grad C, `[m]` \[N/m3\].
     pull: Vec<[f64; 3]>,
 }
 
 impl Traction {
-    /// That of `metal`.
-    pub(super) fn new(metal: Matter) -> Self {
-        Self {
-            density: metal.density,
-            pull: Vec::new(),
-        }
-    }
-
     /// What the surface does with `near.velocity` \[N/m3\], to be balanced over each body.
     pub(super) fn pull(
         &mut self,
@@ -60,10 +50,10 @@ impl Traction {
     }
 
     /// Adds it to `predicted` over `dt` \[s\].
-    pub(super) fn apply(&self, dt: f64, predicted: &mut [[f64; 3]]) {
-        let rows = predicted.par_iter_mut().zip(&self.pull);
+    pub(super) fn apply(&self, near: &Near, dt: f64, predicted: &mut [[f64; 3]]) {
+        let rows = predicted.par_iter_mut().zip(&self.pull).enumerate();
         rows.with_min_len(GRAIN)
-            .for_each(|(u, pull)| *u = along(*u, dt / self.density, *pull));
+            .for_each(|(a, (u, pull))| *u = along(*u, dt / near.density(a), *pull));
     }
 
     /// Bytes held.

@@ -72,7 +72,7 @@ impl Weight {
                 return 0.0;
             }
             let surface = along(near.position[a], 1.0, row.outwards());
-            near.outer.get(a).copied().unwrap_or(0.0) - self.known(islands, a, surface)
+            near.outer.get(a).copied().unwrap_or(0.0) - self.known(near, islands, a, surface)
         };
         let points = rows.par_iter().enumerate().with_min_len(GRAIN);
         points
@@ -100,18 +100,37 @@ impl Weight {
 
     /// p - p' at the place `x` of the particle `a` \[Pa\].
     #[inline]
-    pub(super) fn known(&self, islands: &Islands, a: usize, x: [f64; 3]) -> f64 {
-        self.above(self.level, islands, a, x)
+    pub(super) fn known(&self, near: &Near, islands: &Islands, a: usize, x: [f64; 3]) -> f64 {
+        self.above(self.level, near, islands, a, x)
     }
 
     /// The same above other levels \[Pa\], of what walls bear and of what falls.
     #[inline]
-    pub(super) fn above(&self, level: [f64; 2], islands: &Islands, a: usize, x: [f64; 3]) -> f64 {
+    pub(super) fn above(
+        &self,
+        level: [f64; 2],
+        near: &Near,
+        islands: &Islands,
+        a: usize,
+        x: [f64; 3],
+    ) -> f64 {
         if islands.free(a) {
             level[1]
         } else {
-            level[0] + dot(islands.borne(a, self.slope), difference(x, self.middle))
+            let borne = dot(islands.borne(a, self.slope), difference(x, self.middle));
+            level[0] + near.heaviness(a) * borne
         }
+    }
+
+    /// What the weight of metal makes at the place `x` over x_0, in the body of the particle `a` \[Pa\].
+    #[inline]
+    pub(super) fn of_metal(&self, islands: &Islands, a: usize, x: [f64; 3]) -> f64 {
+        dot(islands.borne(a, self.slope), difference(x, self.middle))
+    }
+
+    /// Takes a place of the interface for x_0.
+    pub(super) fn about(&mut self, middle: [f64; 3]) {
+        self.middle = middle;
     }
 
     /// Bytes held.

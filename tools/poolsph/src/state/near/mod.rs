@@ -9,6 +9,7 @@
 //! completed by [`Near::complete`].
 
 mod carried;
+mod liquids;
 mod members;
 mod pairs;
 
@@ -18,6 +19,7 @@ use particles::Matter;
 use rayon::prelude::*;
 use shapes::frame::squared;
 
+pub use self::liquids::Liquids;
 pub use self::pairs::{PairChunk, Row};
 use self::pairs::{RowSums, rows};
 
@@ -83,6 +85,8 @@ pub struct Near {
     /// How little the liquid wets each solid particle, 0 to 1, `[m]`; empty where it wets all. Empty after gathering, the melting may
     /// fill it.
     pub dry: Vec<f64>,
+    /// Which of two liquids each particle is; none where there is one.
+    pub liquids: Option<Liquids>,
     /// Share of the mechanical pressure by the pair forces of force stages \[Pa\], `[m]`; zero after
     /// gathering: the sum over the pairs of F_ab . x_ab / (6 V), F_ab the force of b on a.
     pub virial: Vec<f64>,
@@ -98,6 +102,8 @@ pub struct Near {
     pub pairs: Vec<PairChunk>,
     /// Place in the copy of each particle of [`State`], [`NONE`] for those that are not in it.
     member: Vec<u32>,
+    /// rho of the metal \[kg/m3\].
+    density: f64,
     len: usize,
     liquid_count: usize,
     images: Images,
@@ -131,6 +137,7 @@ impl Near {
             tension: Vec::new(),
             taken: Vec::new(),
             dry: Vec::new(),
+            liquids: None,
             virial: Vec::new(),
             number: Vec::new(),
             gradient: Vec::new(),
@@ -138,6 +145,7 @@ impl Near {
             lists: Lists::new(),
             pairs: Vec::new(),
             member: Vec::new(),
+            density: metal.density,
             len: 0,
             liquid_count: 0,
             images: Images::default(),
@@ -182,6 +190,35 @@ impl Near {
             + self.lists.bytes()
             + pairs.sum::<usize>()
             + 8 * self.dry.capacity()
+            + self.liquids.as_ref().map_or(0, Liquids::bytes)
+    }
+
+    /// rho of the particle `a` \[kg/m3\].
+    #[must_use]
+    #[inline]
+    pub fn density(&self, a: usize) -> f64 {
+        match &self.liquids {
+            Some(liquids) => liquids.density(a),
+            None => self.density,
+        }
+    }
+
+    /// rho of the particle `a` over that of the metal.
+    #[must_use]
+    #[inline]
+    pub fn heaviness(&self, a: usize) -> f64 {
+        self.density(a) / self.density
+    }
+
+    /// rho of the lightest liquid over that of the particle `a`.
+    #[must_use]
+    #[inline]
+    pub fn slowness(&self, a: usize) -> f64 {
+        let lightest = match &self.liquids {
+            Some(liquids) => liquids.densities().into_iter().fold(f64::MAX, f64::min),
+            None => self.density,
+        };
+        lightest / self.density(a)
     }
 
     /// Collects members, sorts them by cell and finds their neighbours.
@@ -222,6 +259,12 @@ impl Near {
         };
         let members = self.id.par_iter().zip(&self.role).with_min_len(GRAIN);
         members.map(moving).collect_into_vec(&mut self.velocity);
+        if let Some(slag) = state.slag {
+            let mut liquids =
+                (self.liquids.take()).unwrap_or_else(|| Liquids::new(self.density, slag));
+            liquids.gather(state, &self.id);
+            self.liquids = Some(liquids);
+        }
         self.force.clear();
         self.force.resize(self.len, [0.0; 3]);
         self.outer.clear();
@@ -244,6 +287,9 @@ impl Near {
         self.images
             .place(faces, self.kernel.support(), &mut self.position);
         self.images.complete(&mut self.id, |id, _, _| id);
+        if let Some(liquids) = &mut self.liquids {
+            self.images.complete(liquids.marks(), |slag, _, _| slag);
+        }
         self.images
             .complete(&mut self.role, |role, _, _| match role {
                 Role::Liquid | Role::Image => Role::Image,

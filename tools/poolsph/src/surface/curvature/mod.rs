@@ -110,6 +110,22 @@ impl Curvature {
 
     /// Finds the curvature at all liquid particles along the surface.
     pub fn measure(&mut self, near: &Near) {
+        self.dryness.clone_from(&near.dry);
+        if !self.dryness.is_empty() {
+            near.complete(&mut self.dryness, |dry, _, _| dry);
+        }
+        self.find(near);
+    }
+
+    /// Finds the curvature of the `part` of particles and images, as if there were nothing else.
+    pub fn measure_part(&mut self, near: &Near, part: &[bool]) {
+        self.dryness.clear();
+        let other = part.iter().map(|part| f64::from(u8::from(!*part)));
+        self.dryness.extend(other);
+        self.find(near);
+    }
+
+    fn find(&mut self, near: &Near) {
         if self.askew.is_none() && !near.images().tilted_faces().is_empty() {
             self.askew = Some(Askew::new(2.0 * self.smoothing_length));
         }
@@ -127,13 +143,13 @@ impl Curvature {
         let volume = self.volume;
         self.gradient.clear();
         self.gradient.extend_from_slice(&near.gradient);
-        if self.askew.is_some() || !near.dry.is_empty() {
+        if self.askew.is_some() || !self.dryness.is_empty() {
             self.number.clone_from(&near.number);
         }
         if let Some(askew) = &mut self.askew {
             askew.correct(near, &mut self.number, &mut self.gradient);
         }
-        if !near.dry.is_empty() {
+        if !self.dryness.is_empty() {
             self.bare(near);
         }
         for gradient in &mut self.gradient {
@@ -167,8 +183,6 @@ impl Curvature {
 
     /// Takes what the liquid does not wet out of the sums of W and grad W: to its surface that is no metal.
     fn bare(&mut self, near: &Near) {
-        self.dryness.clone_from(&near.dry);
-        near.complete(&mut self.dryness, |dry, _, _| dry);
         let dryness = &self.dryness;
         self.dry.resize(near.len(), [0.0; 4]);
         near.each_row(
@@ -200,7 +214,7 @@ impl Curvature {
         self.members.clear();
         self.places.clear();
         self.samples.clear();
-        let number = if self.askew.is_some() || !near.dry.is_empty() {
+        let number = if self.askew.is_some() || !self.dryness.is_empty() {
             &self.number
         } else {
             &near.number
@@ -209,7 +223,7 @@ impl Curvature {
             let (slope, turned) = (squared(self.gradient[a]).sqrt(), self.turned[a]);
             let steep = slope * self.smoothing_length;
             let size = squared(turned).sqrt();
-            let wetted = 1.0 - near.dry.get(a).copied().unwrap_or(0.0);
+            let wetted = 1.0 - self.dryness.get(a).copied().unwrap_or(0.0);
             if near.role[a] == Role::Backing || steep <= from || size <= 0.0 || wetted <= 0.0 {
                 continue;
             }
