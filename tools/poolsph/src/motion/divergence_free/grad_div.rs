@@ -16,6 +16,7 @@ use kernels::moments::{Moments, times};
 use shapes::frame::{along, difference, dot};
 
 use super::operators::Sums;
+use super::slip::{self, Sides};
 use crate::near::{Near, Role};
 
 /// alpha in d^2. The largest value of D D^T is some 5/d^2 in disorder and at edges; twice its inverse would overshoot.
@@ -32,17 +33,35 @@ pub(super) struct GradDiv {
 }
 
 impl GradDiv {
-    /// Damps the divergence of `u` by the operators of `rows`, between particles `d` apart \[m\], but where two liquids slip along one
-    /// another.
+    /// Damps the divergence of `u` by the operators of `rows`, between particles `d` apart \[m\]; beside an interface of
+    /// two liquids by `sides`.
     pub(super) fn damp(
         &mut self,
         near: &Near,
         rows: &[Sums],
         d: f64,
-        slips: impl Fn(usize) -> bool + Sync,
+        sides: &[Sides],
         u: &mut [[f64; 3]],
     ) {
-        self.diverge(near, rows, slips, u);
+        self.change(near, rows, sides, u);
+        let part = STRENGTH * d * d;
+        for (a, (u, change)) in u.iter_mut().zip(&self.change).enumerate() {
+            *u = along(*u, part * near.slowness(a), *change);
+        }
+    }
+
+    /// Finds -D^T D u.
+    fn change(&mut self, near: &Near, rows: &[Sums], sides: &[Sides], u: &[[f64; 3]]) {
+        self.moved.clear();
+        self.moved.extend_from_slice(u);
+        near.complete(&mut self.moved, |u, _, turn| turn.vector(u));
+        let tense = !near.tension.is_empty();
+        let counts = |a: usize| !(tense && rows[a].missing > 0.0);
+        if let Some(liquids) = &near.liquids {
+            slip::damping(near, liquids, sides, &self.moved, counts, &mut self.change);
+            return;
+        }
+        self.diverge(near, rows, counts);
         let stretched = &self.stretched;
         self.change.resize(near.len(), [0.0; 3]);
         near.each_row(
@@ -67,32 +86,18 @@ impl GradDiv {
                 }
             },
         );
-        let part = STRENGTH * d * d;
-        for (a, (u, change)) in u.iter_mut().zip(&self.change).enumerate() {
-            *u = along(*u, part * near.slowness(a), *change);
-        }
     }
 
     /// Finds (D u) B.
-    fn diverge(
-        &mut self,
-        near: &Near,
-        rows: &[Sums],
-        slips: impl Fn(usize) -> bool + Sync,
-        u: &[[f64; 3]],
-    ) {
-        self.moved.clear();
-        self.moved.extend_from_slice(u);
-        near.complete(&mut self.moved, |u, _, turn| turn.vector(u));
+    fn diverge(&mut self, near: &Near, rows: &[Sums], counts: impl Fn(usize) -> bool + Sync) {
         let moved = &self.moved;
-        let tense = !near.tension.is_empty();
         self.stretched.resize(near.len(), [0.0; 6]);
         near.each_row(
             &mut self.stretched,
             #[inline(always)]
             |a, row, stretched| {
                 *stretched = [0.0; 6];
-                if near.role[a] != Role::Liquid || (tense && rows[a].missing > 0.0) || slips(a) {
+                if near.role[a] != Role::Liquid || !counts(a) {
                     return;
                 }
                 let inverse = rows[a].present;
@@ -163,7 +168,7 @@ mod tests {
 
     fn damped(near: &Near, rows: &[Sums], u: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let mut damped = u.to_vec();
-        GradDiv::default().damp(near, rows, METAL.spacing, |_| false, &mut damped);
+        GradDiv::default().damp(near, rows, METAL.spacing, &[], &mut damped);
         damped
     }
 

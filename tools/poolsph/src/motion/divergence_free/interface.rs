@@ -26,7 +26,8 @@ use shapes::frame::{along, difference, dot, squared};
 
 use super::filled::Filled;
 use super::islands::Islands;
-use super::operators::{Sums, multiplied};
+use super::operators::Sums;
+use super::slip::{self, Sides};
 use super::weight::Weight;
 use crate::near::{Liquids, Near, Role};
 use crate::surface::curvature::Curvature;
@@ -68,6 +69,8 @@ impl Meeting {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Interface {
     rows: Vec<Meeting>,
+    /// Operators of the divergence.
+    sides: Vec<Sides>,
     /// Sum of the middles of the pairs of a row that meet, and their number.
     middles: Vec<[f64; 4]>,
     /// p' that slag sees at solids \[Pa\].
@@ -141,15 +144,28 @@ impl Interface {
                 }
             }
         });
-        for (a, more) in balance.iter().enumerate() {
-            if near.role[a] == Role::Wet && *more > 0.0 {
-                self.side[a] = true;
-                for b in near.lists.row(a).iter().map(|b| *b as usize) {
-                    if b < near.len() && near.role[b] == Role::Backing {
-                        self.side[b] = true;
-                    }
+        // Those that touch no liquid lie as those before them do.
+        let mut behind = vec![0.0_f64; near.len()];
+        near.each_row(&mut behind, |a, row, behind| {
+            if near.role[a] == Role::Wet && balance[a] == 0.0 {
+                let solid = row.values().filter(|(b, _)| *b < balance.len());
+                *behind = solid.map(|(b, w)| w * signum(balance[b])).sum();
+            }
+        });
+        for (balance, behind) in balance.iter_mut().zip(&behind) {
+            *balance += behind;
+        }
+        for a in (0..near.len()).filter(|a| near.role[*a] == Role::Wet) {
+            let sign = signum(balance[a]);
+            for b in near.lists.row(a).iter().map(|b| *b as usize) {
+                if b < near.len() && near.role[b] == Role::Backing {
+                    let far = squared(difference(near.position[a], near.position[b])).sqrt();
+                    balance[b] += sign * near.kernel.value(far);
                 }
             }
+        }
+        for (a, side) in self.side.iter_mut().enumerate() {
+            *side |= near.role[a] != Role::Liquid && balance[a] > 0.0;
         }
         near.complete(&mut self.side, |side, _, _| side);
     }
@@ -262,36 +278,26 @@ impl Interface {
         });
     }
 
-    /// Along the interface both liquids may slip: there the divergence of the velocity `u` is that of a particle's own liquid.
+    /// The operators of the divergence, of the sums `rows`.
+    pub(super) fn take_sides(&mut self, rows: &[Sums]) {
+        let meetings = self.rows.iter().zip(rows);
+        self.sides.clear();
+        self.sides.extend(meetings.map(|(meeting, row)| {
+            Sides::of(row.present, meeting.own, meeting.normal, meeting.trust)
+        }));
+    }
+
+    /// The divergence of the velocity `u` beside the interface, along which both liquids may slip.
     pub(super) fn slip(&self, near: &Near, u: &[[f64; 3]], rows: &mut [Sums]) {
-        let (Some(liquids), meetings) = (&near.liquids, &self.rows) else {
-            return;
-        };
-        near.each_row(rows, |a, row, sums| {
-            let meeting = &meetings[a];
-            if near.role[a] != Role::Liquid || meeting.trust <= 0.0 {
-                return;
-            }
-            let mut change = [[0.0; 3]; 3];
-            for (b, slope) in row.slopes() {
-                let step = match near.role[b].flows() {
-                    true if !liquids.alike(a, b) => continue,
-                    true => difference(u[b], u[a]),
-                    false => u[a].map(|u| -2.0 * u),
-                };
-                let x = difference(near.position[a], near.position[b]);
-                for (line, x) in change.iter_mut().zip(x) {
-                    *line = along(*line, slope * x, step);
-                }
-            }
-            let own = multiplied(meeting.own, change);
-            let n = meeting.normal;
-            // Of the change of u along each axis that of what crosses the interface is as all neighbours have it.
-            let through = |slope: [[f64; 3]; 3]| dot(n, slope.map(|line| dot(line, n)));
-            let straight: f64 = (0..3).map(|i| own[i][i]).sum();
-            let divergence = through(sums.slope) + straight - through(own);
-            sums.divergence += meeting.trust * (divergence - sums.divergence);
-        });
+        if let Some(liquids) = &near.liquids {
+            let beside = |a: usize| self.beside(a);
+            slip::divergence(near, liquids, &self.sides, u, beside, rows);
+        }
+    }
+
+    /// The operators by which the divergence that is left is damped.
+    pub(super) fn sides(&self) -> &[Sides] {
+        &self.sides
     }
 
     /// Whether `a` lies beside the other liquid.
@@ -303,11 +309,17 @@ impl Interface {
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
         size_of::<Meeting>() * self.rows.capacity()
+            + size_of::<Sides>() * self.sides.capacity()
             + 32 * self.middles.capacity()
             + 8 * (self.beyond.capacity() + self.kappa.capacity())
             + self.side.capacity()
             + self.curvature.as_ref().map_or(0, |curvature| curvature.bytes())
     }
+}
+
+/// 1, -1, or 0 of nothing.
+fn signum(x: f64) -> f64 {
+    if x == 0.0 { 0.0 } else { x.signum() }
 }
 
 /// Halfway between two particles.

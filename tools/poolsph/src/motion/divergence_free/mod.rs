@@ -44,6 +44,7 @@ mod pull;
 mod reflection;
 mod ripples;
 mod shift;
+mod slip;
 mod traction;
 mod weight;
 
@@ -187,6 +188,7 @@ impl DivergenceFree {
         }
         (self.interface).meet(near, &self.islands, &self.weight, self.filled);
         self.look(near);
+        self.interface.take_sides(&self.rows);
         let between = (near.liquids.as_ref()).is_some_and(|liquids| liquids.tension > 0.0);
         let free = !near.tension.is_empty();
         if free || between {
@@ -223,8 +225,8 @@ impl DivergenceFree {
         self.differ(near);
         self.balance(near, gas);
         self.push(near, predicted, step);
-        let beside = |a: usize| self.interface.beside(a);
-        (self.grad_div).damp(near, &self.rows, self.filled.spacing, beside, predicted);
+        let (d, sides) = (self.filled.spacing, self.interface.sides());
+        (self.grad_div).damp(near, &self.rows, d, sides, predicted);
         self.pull.release(near);
         solved
     }

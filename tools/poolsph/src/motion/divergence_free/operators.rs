@@ -89,7 +89,7 @@ impl Sums {
 
 /// B M for a symmetric B.
 #[inline(always)]
-pub(super) fn multiplied([a, b, c, d, e, f]: Moments, [x, y, z]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+fn multiplied([a, b, c, d, e, f]: Moments, [x, y, z]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
     let row = |p: f64, q: f64, r: f64| std::array::from_fn(|i| p * x[i] + q * y[i] + r * z[i]);
     [row(a, d, e), row(d, b, f), row(e, f, c)]
 }

@@ -24,18 +24,14 @@ impl DivergenceFree {
     /// p + rho f.(x_w - x_b) at solid particles w, the mean over their liquid neighbours b (Adami, Hu and Adams 2012,
     /// eq. 27), with the acceleration f of the prediction; beyond faces that mirror, from each particle to its image.
     pub(super) fn reach_walls(&mut self, near: &Near, step: Step) {
-        let (pressure, mut total) = (&self.pressure, std::mem::take(&mut self.total));
-        let own = |a: usize| f64::from(pressure[a]);
-        self.reach(near, step, own, 1.0, &mut total);
-        self.total = total;
-        if let Some(liquids) = &near.liquids {
-            let [metal, slag] = liquids.densities();
-            let mut beyond = std::mem::take(&mut self.interface.beyond);
-            let pressure = &self.pressure;
-            let own = |a: usize| f64::from(pressure[a]);
-            self.reach(near, step, own, slag / metal, &mut beyond);
-            self.interface.beyond = beyond;
+        let mut total = std::mem::take(&mut self.total);
+        let mut beyond = std::mem::take(&mut self.interface.beyond);
+        let own = |a: usize| f64::from(self.pressure[a]);
+        self.reach(near, step, own, false, &mut total);
+        if near.liquids.is_some() {
+            self.reach(near, step, own, true, &mut beyond);
         }
+        (self.total, self.interface.beyond) = (total, beyond);
     }
 
     /// Whether the velocity is reflected.
@@ -51,34 +47,41 @@ impl DivergenceFree {
             let [now, before] = [pressure[a], last[a]].map(f64::from);
             now + REFLECTED * common(now, before)
         };
-        self.reach(near, step, push, 1.0, &mut pushing);
+        self.reach(near, step, push, false, &mut pushing);
         self.pushing = pushing;
     }
 
-    /// What `pressure` of the liquid makes at walls, as [`DivergenceFree::reach_walls`] says, for liquid of so many times the density of
-    /// the metal: p' of the other is another part of the same pressure.
+    /// What `pressure` of the liquid makes at walls, as [`DivergenceFree::reach_walls`] says; of two liquids what `slag`, or else the
+    /// metal, sees there, by the other only where a wall touches none of its own.
     fn reach(
         &self,
         near: &Near,
         step: Step,
         pressure: impl Fn(usize) -> f64 + Sync,
-        heaviness: f64,
+        slag: bool,
         total: &mut Vec<f64>,
     ) {
         let change = &self.change;
         let inertia = |a: usize| near.density(a) / step.dt;
+        let both = near.liquids.as_ref();
+        let alike = |b: usize| both.is_none_or(|both| both.is_slag(b) == slag);
         total.resize(near.len(), 0.0);
         near.each_row(total, |a, row, out| {
             *out = pressure(a);
             if near.role[a] == Role::Wet {
-                let (mut sum, mut weight) = (0.0, 0.0);
+                let (mut own, mut other) = ([0.0; 2], [0.0; 2]);
                 for (b, slope) in row.slopes().filter(|(b, _)| near.role[*b].flows()) {
                     let way = difference(near.position[a], near.position[b]);
                     let original = near.images().original(b);
-                    let seen = self.seen(near, original, near.position[a], heaviness);
-                    sum -= slope * (seen + pressure(original) + inertia(original) * dot(change[b], way));
-                    weight -= slope;
+                    let p = pressure(original) + inertia(original) * dot(change[b], way);
+                    if alike(b) {
+                        own = [own[0] - slope * p, own[1] - slope];
+                    } else {
+                        let p = p + self.seen(near, original, near.position[a]);
+                        other = [other[0] - slope * p, other[1] - slope];
+                    }
                 }
+                let [sum, weight] = if own[1] > 0.0 { own } else { other };
                 *out = if weight > 0.0 { sum / weight } else { 0.0 };
             }
         });
@@ -87,16 +90,15 @@ impl DivergenceFree {
             p + inertia(of) * dot(change[of], turn.across(near.position[of]))
         });
     }
-}
 
-impl DivergenceFree {
-    /// What p' of the particle `b` lacks at the place `x` of what liquid of so many times the density of the metal has for the same p.
-    #[inline]
-    fn seen(&self, near: &Near, b: usize, x: [f64; 3], heaviness: f64) -> f64 {
-        if near.liquids.is_none() {
+    /// What the other liquid than that of the particle `b` has more of p' at the place `x` for the same p.
+    fn seen(&self, near: &Near, b: usize, x: [f64; 3]) -> f64 {
+        let Some(both) = &near.liquids else {
             return 0.0;
-        }
-        (near.heaviness(b) - heaviness) * self.weight.of_metal(&self.islands, b, x)
+        };
+        let [metal, slag] = both.densities().map(|density| density / both.densities()[0]);
+        let other = if both.is_slag(b) { metal } else { slag };
+        (near.heaviness(b) - other) * self.weight.of_metal(&self.islands, b, x)
     }
 }
 

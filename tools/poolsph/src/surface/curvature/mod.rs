@@ -68,6 +68,8 @@ pub struct Curvature {
     /// How little the liquid wets each member and image, and the parts of the sums of W and grad W that dry metal has; empty
     /// without any.
     dryness: Vec<f64>,
+    /// Whether only a part of the liquid is looked at.
+    parted: bool,
     dry: Vec<[f64; 4]>,
     /// Members that tell of the surface.
     members: Vec<u32>,
@@ -96,6 +98,7 @@ impl Curvature {
             askew: None,
             number: Vec::new(),
             dryness: Vec::new(),
+            parted: false,
             dry: Vec::new(),
             members: Vec::new(),
             places: Vec::new(),
@@ -110,6 +113,7 @@ impl Curvature {
 
     /// Finds the curvature at all liquid particles along the surface.
     pub fn measure(&mut self, near: &Near) {
+        self.parted = false;
         self.dryness.clone_from(&near.dry);
         if !self.dryness.is_empty() {
             near.complete(&mut self.dryness, |dry, _, _| dry);
@@ -122,6 +126,7 @@ impl Curvature {
         self.dryness.clear();
         let other = part.iter().map(|part| f64::from(u8::from(!*part)));
         self.dryness.extend(other);
+        self.parted = true;
         self.find(near);
     }
 
@@ -155,6 +160,9 @@ impl Curvature {
         for gradient in &mut self.gradient {
             *gradient = gradient.map(|x| volume * x);
         }
+        if self.parted {
+            self.forget_backs(near);
+        }
         near.complete(&mut self.gradient, |gradient, _, turn| {
             let size = squared(gradient).sqrt();
             if turn.tilts() && size > 0.0 {
@@ -179,6 +187,16 @@ impl Curvature {
                 }
             },
         );
+    }
+
+    /// The back of a wall is no face of what lies before it.
+    fn forget_backs(&mut self, near: &Near) {
+        let least = STEEP[0] / (self.volume * self.smoothing_length);
+        for (a, gradient) in self.gradient[..near.len()].iter_mut().enumerate() {
+            if near.role[a] != Role::Liquid && squared(near.gradient[a]).sqrt() > least {
+                *gradient = [0.0; 3];
+            }
+        }
     }
 
     /// Takes what the liquid does not wet out of the sums of W and grad W: to its surface that is no metal.
