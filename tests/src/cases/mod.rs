@@ -46,6 +46,7 @@ mod flow_channel;
 mod flow_dam_break;
 mod flow_drop;
 mod flow_invariance;
+mod flow_layers;
 mod flow_marangoni;
 mod flow_mirror;
 mod flow_pressure;
@@ -171,6 +172,7 @@ fn pools() -> Vec<Box<dyn Case>> {
         Box::new(pool_surface_heat::PoolSurfaceHeat),
         Box::new(flow_channel::FlowChannel::POISEUILLE),
         Box::new(flow_channel::FlowChannel::COUETTE),
+        Box::new(flow_layers::FlowLayers),
         Box::new(flow_marangoni::FlowMarangoni),
         Box::new(flow_pressure::FlowPressure),
         Box::new(flow_cavity::FlowCavity),

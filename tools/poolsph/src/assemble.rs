@@ -100,7 +100,6 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
         &mut state,
         source.caloric.as_deref(),
     )?;
-    metal::mark_slag(scene, &filled, &mut state);
     state.faces = faces;
     fitting(&state).map_err(|fault| fault.within("/faces"))?;
     if let Some(heat) = &scene.heat {
@@ -332,8 +331,11 @@ impl<'a> Source<'a> {
         })?;
         parts.when(Room::Forces, "tension", scene.tension, |tension| {
             if scene.even() {
-                let slag = scene.slag.map(motion::slag::Parameters::slag);
-                return Ok(Box::new(Capillary::new(tension, slag)));
+                let stage = Capillary::new(tension);
+                return Ok(Box::new(match scene.slag {
+                    Some(slag) => stage.beside(slag.slag()),
+                    None => stage,
+                }));
             }
             Ok(Box::new(Tension::new(tension, metal)))
         })

@@ -4,10 +4,9 @@ use run::{Failure, Inputs};
 
 use crate::domain::bodies::{self, Body, Filled};
 use crate::heat::Caloric;
-use crate::scene::{Material, Scene};
+use crate::scene::Scene;
 use crate::source::start;
 use crate::state::State;
-use crate::state::slag::SLAG;
 
 /// Puts the particles of the bodies into `state` and tells how these came out, or those of the input `start`, which no body tells of.
 pub(super) fn fill(
@@ -27,17 +26,5 @@ pub(super) fn fill(
             earlier.fill(state, start, caloric)?;
             Ok(Vec::new())
         }
-    }
-}
-
-/// Marks the particles of bodies of slag.
-pub(super) fn mark_slag(scene: &Scene, filled: &[Filled], state: &mut State) {
-    let mut first = 0;
-    for (body, filled) in scene.bodies.iter().zip(filled) {
-        let next = first + filled.placed;
-        if body.material == Material::Slag {
-            (first..next).for_each(|row| state.metal.set(&SLAG, row, true));
-        }
-        first = next;
     }
 }

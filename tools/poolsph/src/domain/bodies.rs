@@ -8,6 +8,7 @@ use run::property::{Arguments, Curve};
 use super::round::Round;
 use super::shape::{Shape, edge};
 use crate::heat::Caloric;
+use crate::state::slag::SLAG;
 use crate::state::{Particle, State, phase};
 
 /// A later body comes no closer to an earlier one than this part of d.
@@ -39,6 +40,8 @@ pub struct Body {
     pub phase: u8,
     /// Belongs to the container.
     pub wall: bool,
+    /// Slag, not metal.
+    pub slag: bool,
     /// u at the start \[m/s\] over x, y, z, r.
     pub velocity: [Curve; 3],
     /// T at the start \[K\] over x, y, z, r.
@@ -109,8 +112,14 @@ pub fn fill(
     let mut filled = Vec::with_capacity(bodies.len());
     for (i, body) in bodies.iter().enumerate() {
         let points = body_points(body);
-        let (kept, crowded): (Vec<_>, Vec<_>) =
-            points.into_iter().partition(|p| !occupied.near(*p));
+        // Lattices of two bodies may leave room between their particles; the other liquid has no place there.
+        let other = bodies[..i].iter();
+        let other = other.filter(|b| b.slag != body.slag && b.cuts.is_empty());
+        let other: Vec<_> = other.filter_map(|b| b.shape.plain()).collect();
+        let other: Vec<_> = other.iter().map(|s| shapes::Body::new(s, 3)).collect();
+        let (kept, crowded): (Vec<_>, Vec<_>) = points
+            .into_iter()
+            .partition(|p| !occupied.near(*p) && !other.iter().any(|earlier| earlier.holds(*p)));
         for &position in &kept {
             let (temperature, enthalpy) = warmth(body, position, caloric)
                 .map_err(|what| Fault::at(&format!("/bodies/{i}/temperature_k"), what))?;
@@ -125,6 +134,10 @@ pub fn fill(
                 temperature,
                 enthalpy,
             });
+            if body.slag {
+                let row = state.len() - 1;
+                state.metal.set(&SLAG, row, true);
+            }
         }
         kept.iter().for_each(|p| occupied.insert(*p));
         filled.push(Filled {
@@ -223,6 +236,7 @@ mod tests {
             cuts: Vec::new(),
             phase,
             wall: false,
+            slag: false,
             velocity: [const { Curve::Constant(0.0) }; 3],
             temperature: Curve::Constant(300.0),
             held: None,

@@ -405,7 +405,7 @@ fn a_linear_profile_between_walls_feels_no_viscosity() {
     let mut noise = Noise::new(9.8, METAL);
     noise.damp(near, &mut around, &viscosity, 1.0, &mut change);
     let mut between_faces = vec![[0.0; 3]; near.len()];
-    viscosity.apply_between_faces(near, METAL, 1.0, &mut between_faces);
+    viscosity.apply_between_faces(near, 1.0, &mut between_faces);
     for (a, change) in change.iter().chain(&between_faces).enumerate() {
         assert!(squared(*change).sqrt() < 1e-13, "{a}: {change:?}");
     }

@@ -22,14 +22,20 @@ pub struct Capillary {
 }
 
 impl Capillary {
-    /// The tension of the surface of metal, and of slag beside it.
+    /// The tension of the surface of metal.
     #[must_use]
-    pub fn new(parameters: Parameters, slag: Option<Slag>) -> Self {
-        let tension = parameters.surface_tension_n_m;
+    pub fn new(parameters: Parameters) -> Self {
         Self {
-            tension,
-            slag: slag.map(|slag| slag.surface_tension.unwrap_or(tension)),
+            tension: parameters.surface_tension_n_m,
+            slag: None,
         }
+    }
+
+    /// The same with slag beside the metal.
+    #[must_use]
+    pub fn beside(mut self, slag: Slag) -> Self {
+        self.slag = Some(slag.surface_tension.unwrap_or(self.tension));
+        self
     }
 }
 

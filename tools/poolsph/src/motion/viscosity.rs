@@ -206,12 +206,7 @@ impl Viscosity {
 
     /// Adds `dt` times the viscous acceleration of `near.velocity` to `predicted`, with moments of each particle and
     /// walls that hold the velocity at their face.
-    pub fn apply_between_faces(
-        &mut self,
-        near: &Near,
-        dt: f64,
-        predicted: &mut [[f64; 3]],
-    ) {
+    pub fn apply_between_faces(&mut self, near: &Near, dt: f64, predicted: &mut [[f64; 3]]) {
         if !self.acts() {
             return;
         }

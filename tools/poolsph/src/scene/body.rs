@@ -138,6 +138,7 @@ impl BodyScene {
                 StartState::Solid | StartState::Wall => phase::SOLID,
             },
             wall: self.state == StartState::Wall,
+            slag: self.material == Material::Slag,
             velocity: self.velocity(at)?,
             temperature,
             held,

@@ -5,7 +5,7 @@ use run::Fault;
 use shapes::check::{Misfit, check};
 use shapes::frame::{difference, length};
 
-use super::{Scene, StartState, Wire};
+use super::{Scene, StartState, Wire, slag};
 use crate::domain::shape::Shape;
 use crate::grains;
 use crate::motion::{Method, OnColdMetal};
@@ -67,8 +67,7 @@ pub fn faults(scene: &Scene) -> Vec<Fault> {
     faults.extend(hollows(scene));
     faults.extend(twice(scene));
     faults.extend(beside(scene));
-    faults.extend(begun(scene));
-    faults.extend(super::slag::faults(scene));
+    faults.extend(begun(scene).into_iter().chain(slag::faults(scene)));
     let sizes = super::size::faults(scene);
     if sizes.is_empty() {
         faults.extend(super::lattice::faults(scene));

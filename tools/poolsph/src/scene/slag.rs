@@ -42,7 +42,8 @@ pub(super) fn faults(scene: &Scene) -> Vec<Fault> {
     match &scene.flow {
         None => faults.push(Fault::at("/slag", "means nothing without the key 'flow'")),
         Some(flow) if flow.method != Method::DivergenceFree => {
-            let what = "knows one liquid: beside slag leave \"method\" out, or take \"divergence_free\"";
+            let what =
+                "knows one liquid: beside slag leave \"method\" out, or take \"divergence_free\"";
             faults.push(Fault::at("/flow/method", what).or_at("/slag"));
         }
         Some(_) => {}

@@ -1,7 +1,7 @@
 //! Exact cases of what a free surface does: tension, viscosity at the surface, and damping of single particles.
 
 use particles::POSITION;
-use shapes::frame::{cross, dot};
+use shapes::frame::{along, cross, dot};
 
 use super::*;
 use crate::forces::capillary::Capillary;
@@ -51,7 +51,7 @@ fn sum(near: &Near, of: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
 fn viscous(near: &Near, surface: bool) -> Vec<[f64; 3]> {
     let mut change = vec![[0.0; 3]; near.len()];
     let mut viscosity = Viscosity::new(Law::Uniform(MU), METAL);
-    viscosity.apply_between_faces(near, METAL, 1.0, &mut change);
+    viscosity.apply_between_faces(near, 1.0, &mut change);
     if surface {
         let mut solver = DivergenceFree::new(METAL);
         solver.begin(near, &viscosity);
@@ -116,7 +116,8 @@ fn ripples_fall_and_linear_flow_stays() {
     solver.sum(near, &still);
     let damped = |near: &Near| {
         let mut out = near.velocity.clone();
-        Ripples::default().damp(near, &solver.rows, 0.2, &mut out);
+        let surface = |a: usize| solver.rows[a].missing > 0.0;
+        Ripples::default().damp(near, surface, 0.2, &mut out);
         out
     };
     let linear = damped(near);

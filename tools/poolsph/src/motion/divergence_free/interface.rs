@@ -171,13 +171,7 @@ impl Interface {
     }
 
     /// What pairs have of both liquids, after the weight is known.
-    pub(super) fn meet(
-        &mut self,
-        near: &Near,
-        islands: &Islands,
-        weight: &Weight,
-        filled: Filled,
-    ) {
+    pub(super) fn meet(&mut self, near: &Near, islands: &Islands, weight: &Weight, filled: Filled) {
         let Some(liquids) = &near.liquids else {
             return;
         };
@@ -246,12 +240,14 @@ impl Interface {
     pub(super) fn differ(
         &self,
         near: &Near,
-        liquids: &Liquids,
         rows: &[Sums],
         total: &[f64],
         upon: &[f64],
         slope: &mut [[f64; 3]],
     ) {
+        let Some(liquids) = &near.liquids else {
+            return;
+        };
         let (beyond, meetings) = (&self.beyond, &self.rows);
         near.each_row(slope, |a, row, out| {
             *out = [0.0; 3];
@@ -313,7 +309,10 @@ impl Interface {
             + 32 * self.middles.capacity()
             + 8 * (self.beyond.capacity() + self.kappa.capacity())
             + self.side.capacity()
-            + self.curvature.as_ref().map_or(0, |curvature| curvature.bytes())
+            + self
+                .curvature
+                .as_ref()
+                .map_or(0, |curvature| curvature.bytes())
     }
 }
 

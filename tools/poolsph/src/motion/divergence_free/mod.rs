@@ -34,6 +34,7 @@ mod cohesion;
 mod excess;
 mod filled;
 mod grad_div;
+mod gradient;
 mod interface;
 mod islands;
 mod normals;
@@ -48,10 +49,9 @@ mod slip;
 mod traction;
 mod weight;
 
-use kernels::moments::times;
 use particles::Matter;
 use rayon::prelude::*;
-use shapes::frame::{along, difference, squared};
+use shapes::frame::{difference, squared};
 
 use super::step::{Solved, Step, Tolerance};
 use super::viscosity::Viscosity;
@@ -71,7 +71,7 @@ use self::operators::Sums;
 use self::poisson::Poisson;
 use self::pull::Pull;
 use self::ripples::Ripples;
-use self::shift::Shift;
+use self::shift::{Shift, Surfaces};
 use self::traction::Traction;
 use self::weight::Weight;
 
@@ -233,10 +233,12 @@ impl DivergenceFree {
 
     /// Moves particles to where they lie evenly, after a step of `dt` \[s\].
     pub fn even(&mut self, near: &mut Near, dt: f64) {
-        let (rows, normals) = (&self.rows, &self.normals);
-        let interface = &self.interface;
-        let way = |a, way| interface.along(a, way);
-        let change = (self.shift).find(near, self.filled, rows, normals, dt, way);
+        let surfaces = Surfaces {
+            rows: &self.rows,
+            normals: &self.normals,
+            interface: &self.interface,
+        };
+        let change = self.shift.find(near, self.filled, surfaces, dt);
         (self.islands).balance(change, |b| near.heaviness(b), |_| [0.0; 3]);
         self.shift.apply(near);
         self.cohesion.part(near);
@@ -322,83 +324,9 @@ impl DivergenceFree {
                 let beyond = (2.0 * row.missing + enclosed) / near.heaviness(a);
                 let [liquid, jump] = interface.terms(a, row);
                 let diagonal = liquid + beyond;
-                let right =
-                    gone * row.moment / (filled.moment * scale) + beyond * upon[a] + jump;
+                let right = gone * row.moment / (filled.moment * scale) + beyond * upon[a] + jump;
                 *equation = [diagonal as f32, right as f32];
             });
-    }
-
-    /// grad p = B sum of s x_ab (p_b - p_a), mirrored neighbours beyond the surface included.
-    fn differ(&mut self, near: &Near) {
-        let (rows, upon) = (&self.rows, self.weight.upon());
-        let total = if self.reflects(near) {
-            &self.pushing
-        } else {
-            &self.total
-        };
-        self.slope.resize(near.len(), [0.0; 3]);
-        if let Some(liquids) = &near.liquids {
-            let slope = &mut self.slope;
-            (self.interface).differ(near, liquids, rows, total, upon, slope);
-            return;
-        }
-        near.each_row(
-            &mut self.slope,
-            #[inline(always)]
-            |a, row, out| {
-                *out = [0.0; 3];
-                if near.role[a] == Role::Liquid {
-                    let mut sum = rows[a].open.map(|x| 2.0 * (total[a] - upon[a]) * x);
-                    for (b, slope) in row.slopes() {
-                        let x = difference(near.position[a], near.position[b]);
-                        sum = along(sum, slope * (total[b] - total[a]), x);
-                    }
-                    *out = times(rows[a].inverse, sum);
-                }
-            },
-        );
-    }
-
-    /// Along axes on which nothing holds it a body moves as a whole by the pressure of the gas upon its surface alone, whose
-    /// levels are `gas`.
-    fn balance(&mut self, near: &Near, gas: [f64; 2]) {
-        let (rows, pull, moment) = (&self.rows, &self.pull, self.filled.moment);
-        let (weight, islands) = (&self.weight, &self.islands);
-        let upon = |a: usize| {
-            if rows[a].missing <= 0.0 {
-                return [0.0; 3];
-            }
-            let surface = along(near.position[a], 1.0, rows[a].outwards());
-            let pressure = near.outer.get(a).map_or(0.0, |p| p - pull.at(a));
-            let pressure = pressure - weight.above(gas, near, islands, a, surface);
-            let pressure = pressure / near.heaviness(a);
-            rows[a].open.map(|x| -2.0 * pressure * x / moment)
-        };
-        let weight = |b: usize| near.heaviness(b);
-        islands.balance(&mut self.slope, weight, upon);
-    }
-
-    /// u = u* - dt/rho grad p.
-    fn push(&self, near: &mut Near, predicted: &mut [[f64; 3]], step: Step) {
-        let (weight, islands) = (&self.weight, &self.islands);
-        let mut virials = std::mem::take(&mut near.virial);
-        let now = &*near;
-        let points = virials.par_iter_mut().zip(predicted).zip(&now.role);
-        points
-            .zip(&self.slope)
-            .zip(&self.total)
-            .enumerate()
-            .with_min_len(GRAIN)
-            .for_each(|(a, ((((virial, u), role), slope), p))| {
-                let p = p + weight.known(now, islands, a, now.position[a]);
-                if *role == Role::Liquid {
-                    *virial += step.share * p;
-                    *u = along(*u, -step.dt / step.metal.density, *slope);
-                } else {
-                    *virial = p;
-                }
-            });
-        near.virial = virials;
     }
 
     /// Bytes held.

@@ -96,7 +96,9 @@ impl DivergenceFree {
         let Some(both) = &near.liquids else {
             return 0.0;
         };
-        let [metal, slag] = both.densities().map(|density| density / both.densities()[0]);
+        let [metal, slag] = both
+            .densities()
+            .map(|density| density / both.densities()[0]);
         let other = if both.is_slag(b) { metal } else { slag };
         (near.heaviness(b) - other) * self.weight.of_metal(&self.islands, b, x)
     }

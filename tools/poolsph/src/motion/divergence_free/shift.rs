@@ -18,6 +18,7 @@ use rayon::prelude::*;
 use shapes::frame::{along, dot, squared};
 
 use super::filled::Filled;
+use super::interface::Interface;
 use super::normals::Normals;
 use super::operators::Sums;
 use crate::near::{Near, Role};
@@ -39,6 +40,17 @@ pub(super) struct Shift {
     change: Vec<[f64; 3]>,
 }
 
+/// The surfaces that particles are shifted along.
+#[derive(Clone, Copy)]
+pub(super) struct Surfaces<'a> {
+    /// Tell where the free surface is.
+    pub(super) rows: &'a [Sums],
+    /// Normals of it.
+    pub(super) normals: &'a Normals,
+    /// That between two liquids.
+    pub(super) interface: &'a Interface,
+}
+
 impl Shift {
     /// Finds ways by the density at the beginning of the step of `dt` \[s\], as far as they lead through no interface; gives the changes of velocity \[m/s\], to be balanced over each
     /// body.
@@ -46,11 +58,14 @@ impl Shift {
         &mut self,
         near: &Near,
         filled: Filled,
-        rows: &[Sums],
-        normals: &Normals,
+        surfaces: Surfaces<'_>,
         dt: f64,
-        along_interface: impl Fn(usize, [f64; 3]) -> [f64; 3] + Sync,
     ) -> &mut Vec<[f64; 3]> {
+        let Surfaces {
+            rows,
+            normals,
+            interface,
+        } = surfaces;
         let (d, own) = (filled.spacing, near.kernel.value(0.0));
         let [gain, most] = STRENGTH;
         let reach = d * d * (gain * near.fastest_squared().sqrt() * dt / d).min(most);
@@ -76,7 +91,7 @@ impl Shift {
                     }
                     way = along(way, -dot(way, normal), normal);
                 }
-                let way = along_interface(a, way);
+                let way = interface.along(a, way);
                 let size = squared(way).sqrt();
                 let part = if size > FARTHEST * d {
                     FARTHEST * d / size

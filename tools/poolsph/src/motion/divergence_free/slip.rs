@@ -38,7 +38,8 @@ impl Sides {
         let (b, b_own) = (rows(all), rows(own));
         let (through, own_through) = (across(all), across(own));
         let mixed = |i: usize, j: usize| (1.0 - t) * b[i][j] + t * through[i][j];
-        let each = |of: &dyn Fn(usize, usize) -> f64| [0, 1, 2].map(|i| [0, 1, 2].map(|j| of(i, j)));
+        let each =
+            |of: &dyn Fn(usize, usize) -> f64| [0, 1, 2].map(|i| [0, 1, 2].map(|j| of(i, j)));
         Self {
             other: each(&mixed),
             own: each(&|i, j| mixed(i, j) + t * (b_own[i][j] - own_through[i][j])),
@@ -137,7 +138,11 @@ pub(super) fn damping(
             let x = difference(near.position[a], near.position[b]);
             let both = if near.role[b].flows() {
                 let alike = liquids.alike(a, b);
-                along(stretched[a].times(alike, x), 1.0, stretched[b].times(alike, x))
+                along(
+                    stretched[a].times(alike, x),
+                    1.0,
+                    stretched[b].times(alike, x),
+                )
             } else {
                 // What is solid mirrors the velocity of the particle itself.
                 stretched[a].times(true, x).map(|x| 2.0 * x)

@@ -1,7 +1,7 @@
 //! Exact cases of the operators and of a step.
 
 use particles::POSITION;
-use shapes::frame::dot;
+use shapes::frame::{along, dot};
 
 use super::*;
 use crate::march::{Group, March};

@@ -1,5 +1,6 @@
 //! Which of two liquids each particle of the copy is, where there are two.
 
+use super::Near;
 use crate::state::slag::{SLAG, Slag};
 use crate::state::{State, marked};
 
@@ -87,5 +88,35 @@ impl Liquids {
     #[must_use]
     pub fn bytes(&self) -> usize {
         self.slag.capacity()
+    }
+}
+
+impl Near {
+    /// rho of the particle `a` \[kg/m3\].
+    #[must_use]
+    #[inline]
+    pub fn density(&self, a: usize) -> f64 {
+        match &self.liquids {
+            Some(liquids) => liquids.density(a),
+            None => self.density,
+        }
+    }
+
+    /// rho of the particle `a` over that of the metal.
+    #[must_use]
+    #[inline]
+    pub fn heaviness(&self, a: usize) -> f64 {
+        self.density(a) / self.density
+    }
+
+    /// rho of the lightest liquid over that of the particle `a`.
+    #[must_use]
+    #[inline]
+    pub fn slowness(&self, a: usize) -> f64 {
+        let lightest = match &self.liquids {
+            Some(liquids) => liquids.densities().into_iter().fold(f64::MAX, f64::min),
+            None => self.density,
+        };
+        lightest / self.density(a)
     }
 }

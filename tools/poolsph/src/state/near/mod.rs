@@ -193,34 +193,6 @@ impl Near {
             + self.liquids.as_ref().map_or(0, Liquids::bytes)
     }
 
-    /// rho of the particle `a` \[kg/m3\].
-    #[must_use]
-    #[inline]
-    pub fn density(&self, a: usize) -> f64 {
-        match &self.liquids {
-            Some(liquids) => liquids.density(a),
-            None => self.density,
-        }
-    }
-
-    /// rho of the particle `a` over that of the metal.
-    #[must_use]
-    #[inline]
-    pub fn heaviness(&self, a: usize) -> f64 {
-        self.density(a) / self.density
-    }
-
-    /// rho of the lightest liquid over that of the particle `a`.
-    #[must_use]
-    #[inline]
-    pub fn slowness(&self, a: usize) -> f64 {
-        let lightest = match &self.liquids {
-            Some(liquids) => liquids.densities().into_iter().fold(f64::MAX, f64::min),
-            None => self.density,
-        };
-        lightest / self.density(a)
-    }
-
     /// Collects members, sorts them by cell and finds their neighbours.
     pub(crate) fn gather(&mut self, state: &State) {
         self.candidates.clear();

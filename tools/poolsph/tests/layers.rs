@@ -1,0 +1,223 @@
+//! Two liquids that do not mix.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::path::Path;
+use std::process::Command;
+
+use artefact::{Frame, Reader};
+use serde_json::{Value, json};
+
+/// Runs a scene; what it says, its exit code, and its last frame if there is one.
+fn run(folder: &Path, scene: &Value, more: &[&str]) -> (String, Option<i32>, Option<Frame>) {
+    let at = |name: &str| folder.join(name);
+    std::fs::write(at("layers.json"), scene.to_string()).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_poolsph"));
+    command.arg("run").arg(at("layers.json")).arg("--out");
+    let output = command
+        .arg(at("layers.mcap"))
+        .arg("-q")
+        .args(more)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let reader = Reader::open(at("layers.mcap")).ok();
+    let frame = reader.map(|reader| {
+        let last = reader.count("/particles") - 1;
+        reader.frame("/particles", last).unwrap()
+    });
+    (said, output.status.code(), frame)
+}
+
+/// Metal of 5 mm under slag of 4 mm, between walls and periodic faces; lengths times `scale`, the lattice shaken by the formula of the velocity.
+fn basin(scale: f64, down: usize) -> Value {
+    let mut corner = [6.0, 6.0, 6.0].map(|x| 1e-3 * scale * x);
+    corner[down] = 1e-2 * scale;
+    let upto = |level: f64| {
+        let mut top = corner;
+        top[down] = 1e-3 * scale * level;
+        top
+    };
+    let mut between = [0.0; 3];
+    between[down] = 5e-3 * scale;
+    let mut gravity = [0.0; 3];
+    gravity[down] = -9.81 * scale;
+    let names = ["x", "y", "z"];
+    let sides: Vec<&str> = (0..3).filter(|k| *k != down).map(|k| names[k]).collect();
+    json!({
+        "kind": "poolsph.scene", "version": 2, "title": "Slag upon metal", "spacing_m": 1e-3 * scale,
+        "time": {"step_s": 1e-3, "end_s": 0.05}, "density_kg_m3": 7000,
+        "bodies": [
+            {"shape": {"box": {"min_m": [0, 0, 0], "max_m": upto(5.0)}}, "state": "liquid"},
+            {"shape": {"box": {"min_m": between, "max_m": upto(9.0)}}, "state": "liquid", "material": "slag"}
+        ],
+        "faces": {"min_m": [0, 0, 0], "max_m": corner, "periodic": sides, "wall": [{"face": format!("{}-", names[down])}]},
+        "flow": {"viscosity_pa_s": 0.006 * scale * scale, "gravity_m_s2": gravity},
+        "slag": {"density_kg_m3": 2700, "viscosity_pa_s": 0.05 * scale * scale},
+        "output": {"particles_interval_s": 0.05, "precision": "f64"}
+    })
+}
+
+#[test]
+fn layers_at_rest_stay_at_rest_under_their_exact_pressure_at_any_scale_and_turned() {
+    for (scale, down) in [(1.0, 2), (1.0, 0), (1e-2, 2), (100.0, 1)] {
+        let folder = tempfile::tempdir().unwrap();
+        let (said, code, frame) = run(folder.path(), &basin(scale, down), &[]);
+        assert_eq!(code, Some(0), "{said}");
+        let frame = frame.unwrap();
+        let (places, velocities) = (
+            frame.position_vectors().unwrap(),
+            frame.vectors("velocity").unwrap(),
+        );
+        let (pressures, slag) = (frame.f64("pressure").unwrap(), frame.u8("slag").unwrap());
+        assert_eq!(slag.iter().filter(|mark| **mark == 1).count(), 6 * 6 * 4);
+        for (a, x) in places.iter().enumerate() {
+            let z = x[down] / scale;
+            let exact = 9.81
+                * scale
+                * scale
+                * if slag[a] == 1 {
+                    2700.0 * (9e-3 - z)
+                } else {
+                    2700.0 * 4e-3 + 7000.0 * (5e-3 - z)
+                };
+            assert!(
+                (pressures[a] / exact - 1.0).abs() < 1e-5,
+                "{scale} {down}: {} {exact}",
+                pressures[a]
+            );
+            assert!(
+                velocities[a].iter().all(|u| u.abs() < 1e-7 * scale),
+                "{:?}",
+                velocities[a]
+            );
+        }
+    }
+}
+
+/// A basin whose interface has a hump, with tension.
+fn hump() -> Value {
+    let mut scene = basin(1.0, 2);
+    scene["bodies"][0]["velocity_m_s"] =
+        json!([{"expr": "0.05*sin(1047.19755*x)"}, 0, {"expr": "-0.05*cos(1047.19755*x)*z/0.005"}]);
+    scene["slag"]["interface_tension_n_m"] = json!(0.5);
+    scene["time"]["step_s"] = json!(2e-4);
+    scene
+}
+
+#[test]
+fn two_liquids_give_the_same_bytes_on_any_number_of_threads() {
+    let frames = ["1", "2"].map(|threads| {
+        let folder = tempfile::tempdir().unwrap();
+        let (said, code, frame) = run(folder.path(), &hump(), &["--threads", threads]);
+        assert_eq!(code, Some(0), "{said}");
+        frame.unwrap().position_vectors().unwrap()
+    });
+    assert!(
+        frames[0]
+            .iter()
+            .flatten()
+            .zip(frames[1].iter().flatten())
+            .all(|(a, b)| a.to_bits() == b.to_bits())
+    );
+}
+
+#[test]
+fn mass_and_momentum_are_those_of_both_liquids() {
+    // A ball of metal with a cap of slag, alone and without weight, is driven by its tensions.
+    let mut scene = hump();
+    scene["faces"] = json!(null);
+    scene["flow"] = json!({"viscosity_pa_s": 0.006});
+    scene["tension"] = json!({"surface_tension_n_m": 1.2});
+    scene["slag"]["surface_tension_n_m"] = json!(0.4);
+    scene["bodies"] = json!([
+        {"shape": {"intersection": [
+            {"sphere": {"centre_m": [0, 0, 0], "radius_m": 0.004}},
+            {"half_space": {"point_m": [0, 0, 0.001], "normal": [0, 0, 1]}}
+        ]}, "state": "liquid", "velocity_m_s": [0.1, 0, 0], "lattice_m": [0, 0, 0]},
+        {"shape": {"intersection": [
+            {"sphere": {"centre_m": [0, 0, 0], "radius_m": 0.004}},
+            {"half_space": {"point_m": [0, 0, 0.001], "normal": [0, 0, -1]}}
+        ]}, "state": "liquid", "material": "slag", "velocity_m_s": [0.1, 0, 0], "lattice_m": [0, 0, 0]}
+    ]);
+    scene["time"]["end_s"] = json!(0.004);
+    scene["output"]["balance_interval_s"] = json!(0.002);
+    scene
+        .as_object_mut()
+        .unwrap()
+        .retain(|_, value| !value.is_null());
+    let folder = tempfile::tempdir().unwrap();
+    let (said, code, frame) = run(folder.path(), &scene, &[]);
+    assert_eq!(code, Some(0), "{said}");
+    let frame = frame.unwrap();
+    let slag = frame.u8("slag").unwrap();
+    let light = slag.iter().filter(|mark| **mark == 1).count() as f64;
+    let mass = 1e-9 * (7000.0 * (slag.len() as f64 - light) + 2700.0 * light);
+    let reader = Reader::open(folder.path().join("layers.mcap")).unwrap();
+    let records = reader.records("/balance").unwrap();
+    for (_, record) in &records {
+        let held = record.get("mass_kg").unwrap();
+        let moved = record.get("momentum_x").unwrap();
+        assert!((held / mass - 1.0).abs() < 1e-12, "{held} {mass}");
+        assert!((moved / (0.1 * mass) - 1.0).abs() < 1e-10, "{moved} {mass}");
+        for other in ["momentum_y", "momentum_z"] {
+            assert!(
+                record.get(other).unwrap().abs() < 1e-10 * 0.1 * mass,
+                "{other}"
+            );
+        }
+    }
+}
+
+#[test]
+fn no_metal_begins_within_a_drop_of_slag_on_another_lattice() {
+    let mut scene = basin(1.0, 2);
+    // The middle of the drop is one of the places of the box.
+    scene["bodies"] = json!([
+        {"shape": {"sphere": {"centre_m": [4.5e-3, 4.5e-3, 4.5e-3], "radius_m": 3e-3}}, "state": "liquid", "material": "slag"},
+        {"shape": {"box": {"min_m": [0, 0, 0], "max_m": [9e-3, 9e-3, 9e-3]}}, "state": "liquid"}
+    ]);
+    scene.as_object_mut().unwrap().remove("faces");
+    scene["time"] = json!({"step_s": 1e-5, "end_s": 1e-5});
+    scene["output"] = json!({"particles_interval_s": 1e-5, "precision": "f64"});
+    let folder = tempfile::tempdir().unwrap();
+    let (said, _, frame) = run(folder.path(), &scene, &[]);
+    let frame = frame.expect(&said);
+    let places = frame.position_vectors().unwrap();
+    for (x, slag) in places.iter().zip(frame.u8("slag").unwrap()) {
+        let far = x.iter().map(|x| (x - 4.5e-3).powi(2)).sum::<f64>().sqrt();
+        assert!(*slag == 1 || far > 2.9e-3, "{x:?}");
+    }
+}
+
+#[test]
+fn slag_that_cannot_be_is_refused_by_name() {
+    let refused = |change: fn(&mut Value), told: &str| {
+        let mut scene = basin(1.0, 2);
+        change(&mut scene);
+        let folder = tempfile::tempdir().unwrap();
+        let (said, code, _) = run(folder.path(), &scene, &[]);
+        assert_eq!(code, Some(2), "{said}");
+        assert!(said.contains(told), "{said}");
+    };
+    refused(
+        |scene| scene["flow"]["method"] = json!("projection"),
+        "/flow/method",
+    );
+    refused(
+        |scene| scene["slag"]["density_kg_m3"] = json!(1.0),
+        "/slag/density_kg_m3",
+    );
+    refused(
+        |scene| scene["bodies"][1]["state"] = json!("solid"),
+        "/bodies/1/state",
+    );
+    refused(
+        |scene| scene["bodies"][1]["material"] = json!("metal"),
+        "no body is slag",
+    );
+    refused(
+        |scene| drop(scene.as_object_mut().unwrap().remove("slag")),
+        "/bodies/1/material",
+    );
+}
