@@ -11,6 +11,8 @@ use crate::state::State;
 
 /// Neighbours and what stages read of them: bytes of a particle, and of each neighbour.
 const NEAR: [f64; 2] = [170.0, 30.0];
+/// What two liquids need beside one: bytes of a liquid particle, measured on 110,592 of them with tension between both.
+const BOTH: f64 = 640.0;
 /// Links of conduction: bytes of a neighbour.
 const LINKS: f64 = 24.0;
 /// Cells, the frame that is written and what else each particle needs.
@@ -75,6 +77,9 @@ fn of_metal(scene: &Scene, state: &State) -> Vec<(&'static str, f64)> {
     if let Some(flow) = &scene.flow {
         parts.push(("near", liquid * (NEAR[0] + NEAR[1] * neighbours)));
         parts.push(("motion", liquid * motion(flow.method)));
+        if scene.slag.is_some() {
+            parts.push(("slag", liquid * BOTH));
+        }
     }
     if scene.heat.is_some() {
         let rests = if scene.flow.is_some() {
