@@ -65,6 +65,8 @@ pub(crate) struct Weld {
     pub(crate) temperature: Option<Vec<f64>>,
     /// Liquid now.
     pub(crate) liquid: Vec<bool>,
+    /// Slag, by particles of the frame; empty where all is metal.
+    slag: Vec<bool>,
     /// Greatest part of its latent heat that each has ever held.
     pub(crate) fused: Vec<f64>,
     /// Belongs to what is measured: the plate and the fused metal joined to the bead. Spatter and
@@ -112,6 +114,11 @@ impl Weld {
                 None
             },
             liquid: flags(&frame, "molten")?,
+            slag: if frame.has("slag") {
+                flags(&frame, "slag")?
+            } else {
+                Vec::new()
+            },
             fused: frame.f64(if frame.has("fused") {
                 "fused"
             } else {
@@ -189,6 +196,16 @@ impl Weld {
     /// Whether a particle is of the plate or of the bead, and no spatter.
     pub(crate) fn belongs(&self, i: usize) -> bool {
         self.joined[i]
+    }
+
+    /// Whether particle `i` is slag.
+    pub(crate) fn is_slag(&self, i: usize) -> bool {
+        self.slag.get(self.row[i]).is_some_and(|slag| *slag)
+    }
+
+    /// Whether there is slag beside the metal.
+    pub(crate) fn has_slag(&self) -> bool {
+        !self.slag.is_empty()
     }
 
     /// Whether particle `i` has ever been liquid: from half of the latent heat on.

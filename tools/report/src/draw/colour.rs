@@ -10,6 +10,8 @@ pub(crate) const FAINT: Rgb = [0.55, 0.58, 0.62];
 pub(crate) const PLATE: Rgb = [0.70, 0.73, 0.76];
 /// Metal that has been liquid and has frozen again.
 pub(crate) const FROZEN: Rgb = [0.45, 0.60, 0.74];
+/// Molten slag.
+pub(crate) const SLAG: Rgb = hex(0xd6_2828);
 
 /// A colour map, by ten anchors at equal distances.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use super::{WIDTH, bar_beside, heat_scale, quantile, scale_bar};
 use crate::draw::axes::{Axes, Scale, legend};
 use crate::draw::canvas::Canvas;
-use crate::draw::colour::{FROZEN, INK, PLATE, Rgb, hex, mix};
+use crate::draw::colour::{FROZEN, INK, PLATE, Rgb, SLAG, hex, mix};
 use crate::draw::discs::{Disc, draw};
 use crate::draw::letters::{Hand, Stand, write};
 use crate::weld::Weld;
@@ -22,6 +22,7 @@ const SIDES: [f64; 2] = [110.0, 190.0];
 pub(crate) struct Paint {
     melting: f64,
     scale: Option<Scale>,
+    slag: bool,
 }
 
 impl Paint {
@@ -37,12 +38,20 @@ impl Paint {
             liquid.map(|(t, _)| *t)
         });
         let scale = quantile(hot, 0.998).map(|hottest| heat_scale(melting, hottest));
-        Self { melting, scale }
+        let slag = welds.iter().any(|weld| weld.has_slag());
+        Self {
+            melting,
+            scale,
+            slag,
+        }
     }
 
     /// Colour of particle `i`.
     pub(crate) fn colour(&self, weld: &Weld, i: usize) -> Rgb {
         let temperature = weld.temperature.as_ref().map(|t| t[i]);
+        if weld.is_slag(i) {
+            return SLAG;
+        }
         if weld.liquid[i] {
             return match (temperature, &self.scale) {
                 (Some(t), Some(scale)) => scale.colour(t),
@@ -69,6 +78,9 @@ impl Paint {
             entries.push((EMBER, "solid close to melting"));
         } else {
             entries.push((LIQUID, "liquid"));
+        }
+        if self.slag {
+            entries.push((SLAG, "slag"));
         }
         legend(canvas, at, &entries);
     }

@@ -4,14 +4,13 @@
 use super::{WIDTH, bar_beside, heat_scale, quantile, scale_bar};
 use crate::draw::axes::{Axes, Scale, legend};
 use crate::draw::canvas::{Canvas, Rect};
-use crate::draw::colour::{FROZEN, INK, PLATE, Rgb, hex};
+use crate::draw::colour::{self, FROZEN, INK, PLATE, Rgb, hex};
 use crate::draw::discs::{Disc, draw};
 use crate::draw::letters::{Hand, Stand, write};
 use crate::flux::{Flux, POWDER, SLAG};
 use crate::weld::Weld;
 
 const POWDER_COLOUR: Rgb = hex(0xe8_c547);
-const SLAG_COLOUR: Rgb = hex(0xd6_2828);
 const FROZEN_SLAG: Rgb = hex(0x8a_5a34);
 const LIQUID: Rgb = hex(0x2b_6cb0);
 const WIRE: Rgb = hex(0x20_2226);
@@ -128,7 +127,7 @@ fn discs(flux: &Flux, cut: Cut, tells: &Tells) -> Vec<Disc> {
     }
     for (i, x) in flux.position.iter().enumerate().filter(|(_, x)| near(x)) {
         let colour = match (tells, flux.state.get(i)) {
-            (Tells::States, Some(&SLAG)) => SLAG_COLOUR,
+            (Tells::States, Some(&SLAG)) => colour::SLAG,
             (Tells::States, None | Some(&POWDER)) => POWDER_COLOUR,
             (Tells::States, Some(_)) => FROZEN_SLAG,
             (Tells::Temperature(scale), _) => warm(scale, flux.temperature.as_ref().map(|t| t[i])),
@@ -163,7 +162,7 @@ fn key(canvas: &mut Canvas, below: f64, axes: &Axes, tells: &Tells) {
         Tells::States => {
             let names = [
                 (POWDER_COLOUR, "powder"),
-                (SLAG_COLOUR, "slag"),
+                (colour::SLAG, "slag"),
                 (FROZEN_SLAG, "frozen slag"),
                 (LIQUID, "liquid metal"),
                 (FROZEN, "frozen metal"),
