@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 use steps::Figure;
 
 use crate::stage::{Stage, StageError};
-use crate::state::{PHASE, State, VELOCITY, phase};
+use crate::state::slag::SLAG;
+use crate::state::{PHASE, State, VELOCITY, marked, phase};
 
 /// The box in which metal is followed (key `bounds`).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -33,6 +34,8 @@ pub struct Bounds {
     parameters: Parameters,
     mass: f64,
     caught: u64,
+    /// Mass of particles of slag that were caught, in those of metal.
+    slag: f64,
 }
 
 impl Bounds {
@@ -53,6 +56,7 @@ impl Bounds {
                 parameters,
                 mass: metal.mass(),
                 caught: 0,
+                slag: 0.0,
             }),
         }
     }
@@ -65,13 +69,19 @@ impl Stage for Bounds {
 
     fn advance(&mut self, state: &mut State, _dt: f64) -> Result<(), StageError> {
         let Parameters { min_m, max_m } = self.parameters;
+        let (density, own) = (state.metal.matter.density, state.slag);
+        let marks = state.metal.column(&SLAG).to_vec();
         let (places, phases, velocities) =
             (state.metal).columns_mut((&POSITION, &PHASE, &VELOCITY));
-        for (x, (phase, u)) in places.iter().zip(phases.iter_mut().zip(velocities)) {
+        let each = places.iter().zip(phases.iter_mut().zip(velocities));
+        for (a, (x, (phase, u))) in each.enumerate() {
             let outside = (0..3).any(|k| x[k] < min_m[k] || x[k] > max_m[k]);
             if outside && *phase == phase::LIQUID {
                 (*phase, *u) = (phase::FLYING, [0.0; 3]);
-                self.caught += 1;
+                match own {
+                    Some(slag) if marked(&marks, a) => self.slag += slag.density / density,
+                    _ => self.caught += 1,
+                }
             }
         }
         Ok(())
@@ -81,16 +91,18 @@ impl Stage for Bounds {
         vec![Figure {
             name: SPATTER,
             unit: "kg",
-            value: self.mass * self.caught as f64,
+            value: self.mass * (self.caught as f64 + self.slag),
         }]
     }
 
     fn save(&self) -> Vec<f64> {
-        vec![self.caught as f64]
+        let slag = (self.slag > 0.0).then_some(self.slag);
+        std::iter::once(self.caught as f64).chain(slag).collect()
     }
 
     fn restore(&mut self, saved: &[f64]) {
         self.caught = saved.first().map_or(0, |n| *n as u64);
+        self.slag = saved.get(1).copied().unwrap_or(0.0);
     }
 }
 
@@ -147,5 +159,46 @@ mod tests {
         };
         let fault = Bounds::new(wrong, metal).unwrap_err();
         assert_eq!(fault.path(), "/max_m/1");
+    }
+
+    #[test]
+    fn slag_that_is_caught_has_its_own_mass() {
+        let metal = Matter {
+            density: 1000.0,
+            spacing: 1e-3,
+            smoothing_length: 1e-3,
+        };
+        let mut state = State::new(metal);
+        state.metal.declare(&SLAG);
+        state.slag = Some(crate::state::slag::Slag {
+            density: 400.0,
+            viscosity: 0.0,
+            interface_tension: 0.0,
+            surface_tension: None,
+        });
+        for slag in [false, true] {
+            state.push(Particle {
+                position: [2.0; 3],
+                velocity: [0.0; 3],
+                phase: phase::LIQUID,
+                droplet: false,
+                wall: false,
+                temperature: 300.0,
+                enthalpy: 0.0,
+            });
+            let row = state.len() - 1;
+            state.metal.set(&SLAG, row, slag);
+        }
+        let unit = Parameters {
+            min_m: [0.0; 3],
+            max_m: [1.0; 3],
+        };
+        let mut stage = Bounds::new(unit, metal).unwrap();
+        stage.advance(&mut state, 1e-4).unwrap();
+        let caught = |stage: &Bounds| stage.figures()[0].value;
+        assert!((caught(&stage) - 1.4e-6).abs() < 1e-18);
+        let mut resumed = Bounds::new(unit, metal).unwrap();
+        resumed.restore(&stage.save());
+        assert!((caught(&resumed) - 1.4e-6).abs() < 1e-18);
     }
 }
