@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use num_complex::Complex;
 
+use crate::lab::{Finished, LabError};
 use crate::norms::Worst;
 
 /// Ways in which metal is kept incompressible beside faces, the default first.
@@ -100,6 +101,18 @@ pub(crate) fn zeros(time: &[f64], y: &[f64]) -> Vec<f64> {
     crossing
         .map(|(t, y)| t[0] + (t[1] - t[0]) * y[0] / (y[0] - y[1]))
         .collect()
+}
+
+/// Twice the mean time between the moments at which the swing `y` of a run stands still \[s\].
+pub(crate) fn period(run: &Finished, time: &[f64], y: &[f64]) -> Result<f64, LabError> {
+    let stills = zeros(time, y);
+    let (Some(first), Some(last), true) = (stills.first(), stills.last(), stills.len() > 2) else {
+        return Err(LabError::Content {
+            path: run.artefact.clone(),
+            what: format!("stands still {} times, not three", stills.len()),
+        });
+    };
+    Ok(2.0 * (last - first) / (stills.len() - 1) as f64)
 }
 
 /// Frequency and decay \[1/s\] of the second mode of a drop in a vacuum: Rayleigh's frequency `rayleigh` \[1/s\], and

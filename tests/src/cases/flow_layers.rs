@@ -7,7 +7,7 @@ use std::path::Path;
 use serde_json::json;
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::flow::zeros;
+use crate::flow::period;
 use crate::lab::{Finished, Lab, LabError, Subject, read_json};
 use crate::norms::Worst;
 use crate::particles::{Frames, mean, measurement, number};
@@ -124,14 +124,7 @@ fn wave(run: &Finished, frames: &Frames, slag: &[bool]) -> Result<Errors, LabErr
         mean(rows.map(|((x, u), slag)| u[2] * mode(x, *slag)))
     };
     let swing: Vec<f64> = (0..frames.time.len()).map(swing).collect();
-    let stills = zeros(&frames.time, &swing);
-    let (Some(first), Some(last), true) = (stills.first(), stills.last(), stills.len() > 2) else {
-        return Err(LabError::Content {
-            path: run.artefact.clone(),
-            what: format!("stands still {} times, not three", stills.len()),
-        });
-    };
-    let period = 2.0 * (last - first) / (stills.len() - 1) as f64;
+    let period = period(run, &frames.time, &swing)?;
     let later = frames.time.iter().zip(&swing);
     let most = later
         .filter(|(t, _)| **t > 0.25 * exact)

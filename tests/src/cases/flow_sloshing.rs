@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::case::{Case, Errors, Measurement, Target};
-use crate::flow::{METHODS, zeros};
+use crate::flow::{METHODS, period};
 use crate::lab::{Finished, Lab, LabError};
 use crate::particles::{Frames, mean, measurement, number};
 
@@ -70,14 +70,7 @@ fn errors(run: &Finished, frames: &Frames) -> Result<Errors, LabError> {
     };
     let count = frames.time.len();
     let swing: Vec<f64> = (0..count).map(along).collect();
-    let stills = zeros(&frames.time, &swing);
-    let (Some(first), Some(last), true) = (stills.first(), stills.last(), stills.len() > 2) else {
-        return Err(LabError::Content {
-            path: run.artefact.clone(),
-            what: format!("stands still {} times, not three", stills.len()),
-        });
-    };
-    let period = 2.0 * (last - first) / (stills.len() - 1) as f64;
+    let period = period(run, &frames.time, &swing)?;
     let moving = |k: usize| mean(frame(k).map(|(_, u)| 0.5 * u.iter().map(|u| u * u).sum::<f64>()));
     let moving: Vec<f64> = (0..count).map(moving).collect();
     let all = (0..count).map(|k| energy(k) / moving[0]);

@@ -20,7 +20,8 @@ pub struct Parameters {
     #[serde(default)]
     #[schemars(range(min = 0.0), extend("x-unit" = "N/m"))]
     pub interface_tension_n_m: f64,
-    /// Tension of its free surface \[N/m\], where the scene has tension; that of the metal if absent.
+    /// Tension of its free surface \[N/m\], where the scene has tension; that of the metal if absent. Along the line where slag, metal and gas
+    /// meet the three tensions are not balanced: how far slag spreads on metal is not told.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0), extend("x-unit" = "N/m"))]
     pub surface_tension_n_m: Option<f64>,

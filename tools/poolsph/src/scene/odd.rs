@@ -38,6 +38,7 @@ pub fn doubts(scene: &Scene) -> Vec<String> {
     let mut doubts = thin(scene);
     doubts.extend(roomless(scene));
     doubts.extend(lumpy(scene));
+    doubts.extend(super::slag::unbalanced(scene));
     let beside = astray(scene).filter(|told| told == NEVER);
     doubts.extend(beside.filter(|_| scene.grains.is_none()));
     doubts

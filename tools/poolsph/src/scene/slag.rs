@@ -48,15 +48,47 @@ pub(super) fn faults(scene: &Scene) -> Vec<Fault> {
         }
         Some(_) => {}
     }
-    let idle = [
-        ("heat", scene.heat.is_some()),
-        ("grains", scene.grains.is_some()),
-        ("start", scene.start.is_some()),
-    ];
-    let there = idle.into_iter().filter(|(_, there)| *there);
-    faults.extend(there.map(|(key, _)| {
-        let what = "cannot stand beside the key 'slag': its particles have no temperature, and meet no grains";
-        Fault::at(&format!("/{key}"), what).or_at("/slag")
-    }));
+    faults.extend(beside(scene));
     faults
+}
+
+/// What knows of one liquid only.
+fn beside(scene: &Scene) -> Vec<Fault> {
+    let tense = (scene.slag.as_ref()).is_some_and(|slag| slag.interface_tension_n_m > 0.0);
+    let angles = (scene.faces.as_ref()).is_some_and(|faces| !faces.contact_angles.is_empty());
+    let idle = [
+        ("heat", scene.heat.is_some(), "slag has no temperature"),
+        ("grains", scene.grains.is_some(), "slag meets no grains"),
+        ("start", scene.start.is_some(), "no slag is read from it"),
+        (
+            "lorentz",
+            scene.lorentz.is_some(),
+            "slag carries no current",
+        ),
+        (
+            "gas_shear",
+            scene.gas_shear.is_some(),
+            "it knows the viscosity of the metal only",
+        ),
+        (
+            "faces/contact_angles",
+            tense && angles,
+            "the interface meets faces at right angles",
+        ),
+    ];
+    let there = idle.into_iter().filter(|(_, there, _)| *there);
+    let fault = |(key, _, why): (&str, bool, &str)| {
+        let what = format!("cannot stand beside the key 'slag': {why}");
+        Fault::at(&format!("/{key}"), what).or_at("/slag")
+    };
+    there.map(fault).collect()
+}
+
+/// What is told of slag whose free surface has a tension beside that of the metal.
+pub(super) fn unbalanced(scene: &Scene) -> Option<String> {
+    (scene.slag.is_some() && scene.tension.is_some()).then(|| {
+        "where the surfaces of slag and metal meet, their tensions and that of the interface are not balanced: how far slag spreads on \
+         metal is not told"
+            .to_owned()
+    })
 }

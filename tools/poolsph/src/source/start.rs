@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::heat::Caloric;
+use crate::state::slag::SLAG;
 use crate::state::{DROPLET, FUSED, LIQUID, Particle, State, phase};
 
 /// The particles of an earlier run begin this one, in place of those of the bodies: the last ones of the input `start`. Of the bodies
@@ -77,6 +78,10 @@ impl Earlier {
             return Err(Fault::at("/spacing_m", what).into());
         }
         let frame = &self.frame;
+        if frame.has(SLAG.name) {
+            let what = "the input 'start' holds slag, with which no run can begin yet";
+            return Err(Fault::at("/start", what).into());
+        }
         let (positions, velocities) = (frame.position_vectors()?, frame.vectors("velocity")?);
         let molten = frame.u8("molten")?;
         let marks = |name| frame.has(name).then(|| frame.u8(name)).transpose();

@@ -117,7 +117,7 @@ fn ripples_fall_and_linear_flow_stays() {
     let damped = |near: &Near| {
         let mut out = near.velocity.clone();
         let surface = |a: usize| solver.rows[a].missing > 0.0;
-        Ripples::default().damp(near, surface, 0.2, &mut out);
+        Ripples::default().damp(near, surface, &Interface::default(), 0.2, &mut out);
         out
     };
     let linear = damped(near);

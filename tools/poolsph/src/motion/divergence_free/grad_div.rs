@@ -15,8 +15,8 @@
 use kernels::moments::{Moments, times};
 use shapes::frame::{along, difference, dot};
 
+use super::interface::Interface;
 use super::operators::Sums;
-use super::slip::{self, Sides};
 use crate::near::{Near, Role};
 
 /// alpha in d^2. The largest value of D D^T is some 5/d^2 in disorder and at edges; twice its inverse would overshoot.
@@ -33,32 +33,32 @@ pub(super) struct GradDiv {
 }
 
 impl GradDiv {
-    /// Damps the divergence of `u` by the operators of `rows`, between particles `d` apart \[m\]; beside an interface of
-    /// two liquids by `sides`.
+    /// Damps the divergence of `u` by the operators of `rows`, between particles `d` apart \[m\], beside an `interface` by
+    /// its own.
     pub(super) fn damp(
         &mut self,
         near: &Near,
         rows: &[Sums],
         d: f64,
-        sides: &[Sides],
+        interface: &mut Interface,
         u: &mut [[f64; 3]],
     ) {
-        self.change(near, rows, sides, u);
+        self.change(near, rows, interface, u);
         let part = STRENGTH * d * d;
         for (a, (u, change)) in u.iter_mut().zip(&self.change).enumerate() {
-            *u = along(*u, part * near.slowness(a), *change);
+            *u = along(*u, part / near.heaviness(a), *change);
         }
     }
 
-    /// Finds -D^T D u.
-    fn change(&mut self, near: &Near, rows: &[Sums], sides: &[Sides], u: &[[f64; 3]]) {
+    /// Finds -D^T D u; of two liquids that of D^T rho D u, over the density of the metal.
+    fn change(&mut self, near: &Near, rows: &[Sums], interface: &mut Interface, u: &[[f64; 3]]) {
         self.moved.clear();
         self.moved.extend_from_slice(u);
         near.complete(&mut self.moved, |u, _, turn| turn.vector(u));
         let tense = !near.tension.is_empty();
         let counts = |a: usize| !(tense && rows[a].missing > 0.0);
-        if let Some(liquids) = &near.liquids {
-            slip::damping(near, liquids, sides, &self.moved, counts, &mut self.change);
+        if near.liquids.is_some() {
+            interface.damp(near, &self.moved, counts, &mut self.change);
             return;
         }
         self.diverge(near, rows, counts);
@@ -168,7 +168,13 @@ mod tests {
 
     fn damped(near: &Near, rows: &[Sums], u: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let mut damped = u.to_vec();
-        GradDiv::default().damp(near, rows, METAL.spacing, &[], &mut damped);
+        GradDiv::default().damp(
+            near,
+            rows,
+            METAL.spacing,
+            &mut Interface::default(),
+            &mut damped,
+        );
         damped
     }
 

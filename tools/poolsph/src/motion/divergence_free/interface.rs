@@ -71,6 +71,8 @@ pub(super) struct Interface {
     rows: Vec<Meeting>,
     /// Operators of the divergence.
     sides: Vec<Sides>,
+    /// D u times these, `[m + images]`.
+    stretched: Vec<Sides>,
     /// Sum of the middles of the pairs of a row that meet, and their number.
     middles: Vec<[f64; 4]>,
     /// p' that slag sees at solids \[Pa\].
@@ -170,8 +172,16 @@ impl Interface {
         near.complete(&mut self.side, |side, _, _| side);
     }
 
-    /// What pairs have of both liquids, after the weight is known.
-    pub(super) fn meet(&mut self, near: &Near, islands: &Islands, weight: &Weight, filled: Filled) {
+    /// What pairs have of both liquids, after the weight is known; `rows` tell where the free surface is. There both move together: what
+    /// is left to one of them alone is an edge, by which no slope is told.
+    pub(super) fn meet(
+        &mut self,
+        near: &Near,
+        islands: &Islands,
+        weight: &Weight,
+        rows: &[Sums],
+        filled: Filled,
+    ) {
         let Some(liquids) = &near.liquids else {
             return;
         };
@@ -180,6 +190,11 @@ impl Interface {
             let denser = (liquids.density(b) - liquids.density(a)) / liquids.densities()[0];
             let borne = denser * weight.of_metal(islands, a, middle(near, a, b));
             if kappa.is_empty() {
+                return borne;
+            }
+            // Where the free surface begins, the interface ends.
+            let ends = [a, b].map(|a| rows[near.images().original(a)].missing > 0.0);
+            if ends != [false; 2] {
                 return borne;
             }
             let pulled = liquids.tension * kappa[if liquids.is_slag(b) { b } else { a }];
@@ -204,6 +219,9 @@ impl Interface {
             let size = squared(out.normal).sqrt();
             if size > 0.0 {
                 out.normal = out.normal.map(|x| x / size);
+                if rows[a].missing > 0.0 {
+                    return;
+                }
                 let alike = |b: usize| !near.role[b].flows() || liquids.alike(a, b);
                 let (mut fill, mut moments) = (0.0, [0.0; 6]);
                 for (b, slope) in row.slopes().filter(|(b, _)| alike(*b)) {
@@ -224,6 +242,16 @@ impl Interface {
     pub(super) fn terms(&self, a: usize, row: &Sums) -> [f64; 2] {
         let meeting = self.rows.get(a);
         meeting.map_or([row.liquid, 0.0], |meeting| [meeting.weight, meeting.jump])
+    }
+
+    /// rho of the lightest liquid that the particle `a` touches, over that of the metal. Damped by it, and not by its own, what single
+    /// particles do keeps momentum, and a light one is not thrown off.
+    #[inline]
+    pub(super) fn lightest(&self, near: &Near, a: usize) -> f64 {
+        match self.rows.get(a) {
+            Some(meeting) if squared(meeting.normal) > 0.0 => near.heaviness(a) * near.slowness(a),
+            _ => near.heaviness(a),
+        }
     }
 
     /// The part of `way` of the particle `a` that does not lead through the interface.
@@ -291,9 +319,23 @@ impl Interface {
         }
     }
 
-    /// The operators by which the divergence that is left is damped.
-    pub(super) fn sides(&self) -> &[Sides] {
-        &self.sides
+    /// -D^T rho D u of the velocity `u` of particles and images, over the density of the metal; D counts where `counts` says.
+    pub(super) fn damp(
+        &mut self,
+        near: &Near,
+        u: &[[f64; 3]],
+        counts: impl Fn(usize) -> bool + Sync,
+        change: &mut Vec<[f64; 3]>,
+    ) {
+        if let Some(liquids) = &near.liquids {
+            let mut stretched = std::mem::take(&mut self.stretched);
+            stretched.resize(near.len(), Sides::default());
+            let weight = |a: usize| self.lightest(near, a);
+            let weight = |a: usize| if counts(a) { weight(a) } else { 0.0 };
+            slip::stretch(near, liquids, &self.sides, u, weight, &mut stretched);
+            slip::relax(near, liquids, &stretched, change);
+            self.stretched = stretched;
+        }
     }
 
     /// Whether `a` lies beside the other liquid.
@@ -305,7 +347,7 @@ impl Interface {
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
         size_of::<Meeting>() * self.rows.capacity()
-            + size_of::<Sides>() * self.sides.capacity()
+            + size_of::<Sides>() * (self.sides.capacity() + self.stretched.capacity())
             + 32 * self.middles.capacity()
             + 8 * (self.beyond.capacity() + self.kappa.capacity())
             + self.side.capacity()

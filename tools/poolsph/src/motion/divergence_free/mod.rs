@@ -186,8 +186,9 @@ impl DivergenceFree {
         if let Some(middle) = self.interface.find(near, step.metal) {
             self.weight.about(middle);
         }
-        (self.interface).meet(near, &self.islands, &self.weight, self.filled);
         self.look(near);
+        let (islands, weight, rows) = (&self.islands, &self.weight, &self.rows);
+        (self.interface).meet(near, islands, weight, rows, self.filled);
         self.interface.take_sides(&self.rows);
         let between = (near.liquids.as_ref()).is_some_and(|liquids| liquids.tension > 0.0);
         let free = !near.tension.is_empty();
@@ -196,7 +197,7 @@ impl DivergenceFree {
             let (rows, interface) = (&self.rows, &self.interface);
             let surface =
                 |a: usize| (free && rows[a].missing > 0.0) || (between && interface.beside(a));
-            self.ripples.damp(near, surface, part, predicted);
+            (self.ripples).damp(near, surface, interface, part, predicted);
         }
         if free {
             self.cohesion.pull(near, self.filled, step.dt, predicted);
@@ -225,8 +226,8 @@ impl DivergenceFree {
         self.differ(near);
         self.balance(near, gas);
         self.push(near, predicted, step);
-        let (d, sides) = (self.filled.spacing, self.interface.sides());
-        (self.grad_div).damp(near, &self.rows, d, sides, predicted);
+        let (d, interface) = (self.filled.spacing, &mut self.interface);
+        (self.grad_div).damp(near, &self.rows, d, interface, predicted);
         self.pull.release(near);
         solved
     }

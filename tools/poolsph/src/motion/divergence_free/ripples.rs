@@ -16,6 +16,7 @@
 
 use shapes::frame::{along, difference, dot, squared};
 
+use super::interface::Interface;
 use crate::near::{Near, Role};
 
 /// Part of D^T D u that is taken in the time of the shortest waves of the surface.
@@ -57,6 +58,7 @@ impl Ripples {
         &mut self,
         near: &Near,
         surface: impl Fn(usize) -> bool + Sync,
+        interface: &Interface,
         part: f64,
         predicted: &mut [[f64; 3]],
     ) {
@@ -79,9 +81,10 @@ impl Ripples {
         near.each_row(&mut self.apart, |a, row, apart| {
             *apart = [0.0; 3];
             if fit[a][0] > 0.0 {
-                *apart = liquid(near, a, row).fold(near.velocity[a], |sum, (b, w, x)| {
+                let own = liquid(near, a, row).fold(near.velocity[a], |sum, (b, w, x)| {
                     along(sum, -w * share(fit[a], x), near.velocity[b])
                 });
+                *apart = own.map(|u| interface.lightest(near, a) * u);
             }
         });
         let apart = &self.apart;
@@ -104,7 +107,7 @@ impl Ripples {
             },
         );
         for (a, (u, change)) in predicted.iter_mut().zip(&self.change).enumerate() {
-            *u = along(*u, -part * near.slowness(a), *change);
+            *u = along(*u, -part / near.heaviness(a), *change);
         }
     }
 

@@ -52,8 +52,8 @@ pub(super) struct Surfaces<'a> {
 }
 
 impl Shift {
-    /// Finds ways by the density at the beginning of the step of `dt` \[s\], as far as they lead through no interface; gives the changes of velocity \[m/s\], to be balanced over each
-    /// body.
+    /// Finds ways by the density at the beginning of the step of `dt` \[s\], as far as they lead through no interface; gives the changes of
+    /// velocity \[m/s\], to be balanced over each body.
     pub(super) fn find(
         &mut self,
         near: &Near,

@@ -17,7 +17,7 @@ use kernels::moments::{Moments, times};
 use shapes::frame::{along, difference, dot};
 
 use super::operators::Sums;
-use crate::near::{Liquids, Near, Role};
+use crate::near::{Liquids, Near, Role, Row};
 
 /// A matrix by rows.
 type Matrix = [[f64; 3]; 3];
@@ -72,7 +72,28 @@ impl Sides {
     }
 }
 
-/// div u by the `sides` of each particle, of velocities `u` of particles and images.
+/// div u of the particle `a` by its `sides`, of velocities `u` of particles and images.
+fn divergence_at(
+    near: &Near,
+    liquids: &Liquids,
+    sides: &Sides,
+    u: &[[f64; 3]],
+    a: usize,
+    row: Row<'_>,
+) -> f64 {
+    let parts = row.slopes().map(|(b, slope)| {
+        let (alike, step) = if near.role[b].flows() {
+            (liquids.alike(a, b), difference(u[b], u[a]))
+        } else {
+            (true, u[a].map(|u| -2.0 * u))
+        };
+        let x = difference(near.position[a], near.position[b]);
+        slope * dot(sides.times(alike, x), step)
+    });
+    parts.sum()
+}
+
+/// Puts div u by the `sides` of each particle `of` which is asked into `rows`.
 pub(super) fn divergence(
     near: &Near,
     liquids: &Liquids,
@@ -82,52 +103,40 @@ pub(super) fn divergence(
     rows: &mut [Sums],
 ) {
     near.each_row(rows, |a, row, sums| {
-        if near.role[a] != Role::Liquid || !of(a) {
-            return;
-        }
-        sums.divergence = 0.0;
-        for (b, slope) in row.slopes() {
-            let (alike, step) = if near.role[b].flows() {
-                (liquids.alike(a, b), difference(u[b], u[a]))
-            } else {
-                (true, u[a].map(|u| -2.0 * u))
-            };
-            let x = difference(near.position[a], near.position[b]);
-            sums.divergence += slope * dot(sides[a].times(alike, x), step);
+        if near.role[a] == Role::Liquid && of(a) {
+            sums.divergence = divergence_at(near, liquids, &sides[a], u, a, row);
         }
     });
 }
 
-/// D u of `u`, images included, and what D^T makes of it: -D^T D u, to be added to u in parts.
-pub(super) fn damping(
+/// M of each particle times its div u and its `weight`, images included.
+pub(super) fn stretch(
     near: &Near,
     liquids: &Liquids,
     sides: &[Sides],
     u: &[[f64; 3]],
-    of: impl Fn(usize) -> bool + Sync,
-    change: &mut Vec<[f64; 3]>,
+    weight: impl Fn(usize) -> f64 + Sync,
+    stretched: &mut Vec<Sides>,
 ) {
-    let mut stretched = vec![Sides::default(); near.len()];
-    near.each_row(&mut stretched, |a, row, out| {
+    near.each_row(stretched, |a, row, out| {
         *out = Sides::default();
-        if near.role[a] != Role::Liquid || !of(a) {
-            return;
+        if near.role[a] == Role::Liquid {
+            let divergence = divergence_at(near, liquids, &sides[a], u, a, row);
+            *out = sides[a].by(weight(a) * divergence);
         }
-        let mut divergence = 0.0;
-        for (b, slope) in row.slopes() {
-            let (alike, step) = if near.role[b].flows() {
-                (liquids.alike(a, b), difference(u[b], u[a]))
-            } else {
-                (true, u[a].map(|u| -2.0 * u))
-            };
-            let x = difference(near.position[a], near.position[b]);
-            divergence += slope * dot(sides[a].times(alike, x), step);
-        }
-        *out = sides[a].by(divergence);
     });
-    near.complete(&mut stretched, |sides, _, turn| {
+    near.complete(stretched, |sides, _, turn| {
         sides.turned(turn.vector([1.0; 3]))
     });
+}
+
+/// What D^T makes of what [`stretch`] gave, with the other sign.
+pub(super) fn relax(
+    near: &Near,
+    liquids: &Liquids,
+    stretched: &[Sides],
+    change: &mut Vec<[f64; 3]>,
+) {
     change.resize(near.len(), [0.0; 3]);
     near.each_row(change, |a, row, change| {
         *change = [0.0; 3];
@@ -138,11 +147,8 @@ pub(super) fn damping(
             let x = difference(near.position[a], near.position[b]);
             let both = if near.role[b].flows() {
                 let alike = liquids.alike(a, b);
-                along(
-                    stretched[a].times(alike, x),
-                    1.0,
-                    stretched[b].times(alike, x),
-                )
+                let other = stretched[b].times(alike, x);
+                along(stretched[a].times(alike, x), 1.0, other)
             } else {
                 // What is solid mirrors the velocity of the particle itself.
                 stretched[a].times(true, x).map(|x| 2.0 * x)

@@ -161,7 +161,7 @@ impl Curvature {
             *gradient = gradient.map(|x| volume * x);
         }
         if self.parted {
-            self.forget_backs(near);
+            self.forget_free(near);
         }
         near.complete(&mut self.gradient, |gradient, _, turn| {
             let size = squared(gradient).sqrt();
@@ -189,11 +189,11 @@ impl Curvature {
         );
     }
 
-    /// The back of a wall is no face of what lies before it.
-    fn forget_backs(&mut self, near: &Near) {
+    /// What faces neither liquid nor wall is no face to the other liquid: the free surface, and the back of a wall.
+    fn forget_free(&mut self, near: &Near) {
         let least = STEEP[0] / (self.volume * self.smoothing_length);
-        for (a, gradient) in self.gradient[..near.len()].iter_mut().enumerate() {
-            if near.role[a] != Role::Liquid && squared(near.gradient[a]).sqrt() > least {
+        for (gradient, all) in self.gradient.iter_mut().zip(&near.gradient) {
+            if squared(*all).sqrt() > least {
                 *gradient = [0.0; 3];
             }
         }
