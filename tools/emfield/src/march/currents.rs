@@ -7,6 +7,7 @@ use steps::Legs;
 
 use super::adaptive::Adaptive;
 use super::growth::Growth;
+use super::modes::Modes;
 use super::scheme::{March, Settled, slope};
 use super::wave::Wave;
 use crate::cloud::Cloud;
@@ -62,6 +63,7 @@ struct Marching<'a> {
     wave: Wave,
     adaptive: Option<Adaptive>,
     growth: Growth,
+    modes: Modes,
     /// Unknowns of all points.
     points: usize,
     /// Steps of the scene's length that are done.
@@ -95,6 +97,10 @@ impl Marching<'_> {
         };
         self.taken += stride;
         let (time, written) = self.steps.end(self.taken);
+        self.modes.step(from, self.length, &self.wave)?;
+        if written {
+            self.modes.written(time);
+        }
         let still = self.wave.stands(from, time)?;
         let rates = &self.march.state().change[..self.points];
         self.growth.watch(rates, still, self.taken, time, cloud)?;
@@ -151,6 +157,7 @@ impl Marching<'_> {
             session.steps(steps.count());
             session.closing("step", "s", steps.longest());
         }
+        self.modes.tell(self.steps.longest(), session);
         session.closing("products_march", "1", self.effort.products as f64);
         session.closing("residual_march", "1", self.effort.residual);
     }
@@ -189,6 +196,7 @@ pub(crate) fn march<const D: usize, const K: usize>(
     let mut run = Marching {
         adaptive: wanted.map(|a| Adaptive::new(a, length, problem.heating(), K, march.state())),
         growth: Growth::new(problem.heating(), K),
+        modes: Modes::new(problem.slowest(), length, steps.end(steps.count()).0),
         points: K * problem.cloud.len(),
         march,
         wave,
@@ -251,6 +259,7 @@ impl Marching<'_> {
         checkpoint.put_f64("effort", &[effort.residual, largest, worst.0]);
         let (last, most, rises) = self.growth.seen;
         checkpoint.put_f64("growth", &[last, most, f64::from(rises)]);
+        self.modes.save(checkpoint);
         let rescued = match march.rescued() {
             None => 0,
             Some(Rescue::Direct) => 1,
@@ -314,6 +323,7 @@ impl Marching<'_> {
         if let &[last, most, rises] = &checkpoint.f64("growth")?[..] {
             self.growth.seen = (last, most, rises as u32);
         }
+        self.modes.restore(checkpoint)?;
         self.effort = Effort {
             settled: match self.march.settled() {
                 Some(_) => bodies::restored(checkpoint)?,

@@ -58,6 +58,14 @@ impl Wave {
         value.map_err(|error| Failure::Other(format!("wave at {time:.6e} s: {error}")))
     }
 
+    /// Its values at even parts of a step of `length` \[s\], between which it is taken as a line: at the ends alone where it does not
+    /// vary.
+    pub(crate) fn lines(&self, from: f64, length: f64) -> Result<Vec<f64>, Failure> {
+        let parts = if self.curve.depends_on("t") { PARTS } else { 1 };
+        let part = |k: usize| self.at(from + length * k as f64 / parts as f64);
+        (0..=parts).map(part).collect()
+    }
+
     /// Whether a step of `length` \[s\] from an instant \[s\] on sees its peaks and meets no bend.
     pub(crate) fn follows(&self, from: f64, length: f64) -> Result<bool, Failure> {
         if !self.curve.depends_on("t") {

@@ -124,7 +124,7 @@ fn a_ball_above_a_loop_is_lifted_by_what_any_surface_says() {
 #[test]
 fn a_march_says_the_force_at_each_instant() {
     let folder = tempfile::tempdir().unwrap();
-    let mut scene = lifted(&json!({"transient": {"end_s": 0.05, "step_s": 0.005}}));
+    let mut scene = lifted(&json!({"transient": {"end_s": 0.05, "step_s": 0.0025}}));
     scene["output"]["at_s"] = json!([0.01]);
     let reader = run(folder.path(), &scene);
     assert_eq!(reader.count("/totals"), 3);

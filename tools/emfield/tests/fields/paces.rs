@@ -51,3 +51,30 @@ fn a_skin_that_points_do_not_resolve_and_a_bar_that_meets_the_wall_are_told_in_a
     assert_eq!(code, 3);
     assert!(told[0].contains("bar touches the wall"), "{told:?}");
 }
+
+#[test]
+fn fields_that_are_written_too_few_steps_after_a_switch_are_told() {
+    // mu sigma D^2 is 5 ms; a field that is switched on at once.
+    let scene = |steps: f64, every: f64| {
+        let mut scene = bar(0.01, 50.0, 0.002 / steps, steps);
+        scene["eddy_currents"]["transient"]
+            .as_object_mut()
+            .unwrap()
+            .remove("wave");
+        scene["output"] = json!({"every_s": 0.002 * every});
+        scene
+    };
+    let (code, told) = warned(&scene(1.0, 1.0));
+    assert_eq!(code, 3);
+    assert!(
+        told[0].starts_with("unresolved: at 1 instants that are written"),
+        "{told:?}"
+    );
+    // Where the step is long for all of the bar there is nothing to follow.
+    let mut poor = scene(1.0, 1.0);
+    poor["bodies"][0]["conductivity_s_m"] = json!(1e2);
+    assert_eq!(warned(&poor), (0, vec![]));
+    // Eight steps, written at the end and after the first.
+    assert_eq!(warned(&scene(8.0, 1.0)), (0, vec![]));
+    assert_eq!(warned(&scene(8.0, 0.125)).0, 3);
+}
