@@ -3,11 +3,15 @@
 use artefact::Checkpoint;
 use run::{Failure, Session};
 
+use crate::march::choice::Steps;
 use crate::march::{Method, State};
 use crate::system::System;
 
 /// Error of a step, over the range of temperature, from which on what it ends at is told to be off.
 const ROUGH: f64 = 0.01;
+
+/// Errors of steps in a row, over that of one.
+const MANY: f64 = 10.0;
 
 /// What of the march changes from step to step.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,9 +61,19 @@ impl Pace {
         self.error = if error > nothing { error } else { 0.0 };
     }
 
-    /// Marks an instant \[s\] that is written.
-    pub fn mark(&mut self, time: f64) {
-        let share = self.error / self.range.max(f64::MIN_POSITIVE);
+    /// By how much temperatures may be off after many steps, as far as they are told \[K\].
+    #[must_use]
+    pub fn strays(&self, steps: Steps) -> f64 {
+        let part = match steps {
+            Steps::Controlled { tolerance, .. } => (MANY * tolerance).max(ROUGH),
+            _ => ROUGH,
+        };
+        part * self.range
+    }
+
+    /// Marks an instant \[s\] that is written, and its least temperature \[K\]: what is below 0 K is an error too.
+    pub fn mark(&mut self, time: f64, low: f64) {
+        let share = self.error.max(-low) / self.range.max(f64::MIN_POSITIVE);
         if share > ROUGH {
             let [count, worst, at] = self.rough;
             let [worst, at] = if share > worst {

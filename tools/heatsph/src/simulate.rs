@@ -303,8 +303,8 @@ impl March<'_> {
                 next
             };
         }
-        if let Some(i) = self.state.cold(self.pace.range) {
-            let what = too_cold(self.state.temperature[i]);
+        if let Some(i) = self.state.cold(self.pace.strays(self.steps)) {
+            let what = too_cold(self.state.temperature[i], self.system.takes());
             return Err(self.diverged("temperature [K]", &what, Some(i)));
         }
         Ok(None)
@@ -316,7 +316,8 @@ impl March<'_> {
         event: Instant,
         session: &mut Session,
     ) -> Result<(), Failure> {
-        self.pace.mark(event.time);
+        let (low, _) = extent(&self.state.temperature);
+        self.pace.mark(event.time, low);
         output.write(self.system, &self.state, &self.rates, event, session)
     }
 

@@ -5,7 +5,7 @@ use run::{Failure, Session};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::march::{State, too_cold};
+use crate::march::{ROUNDED, State, too_cold};
 use crate::solve::{Effort, Goal, Problem, SolveError, Solver};
 use crate::system::{Rates, System, extent};
 
@@ -197,13 +197,13 @@ fn unsettled(range: (f64, f64)) -> String {
 
 /// Refuses a steady state below 0 K; `usual` is one that is given \[K\].
 fn warm(system: &System, state: &State, usual: f64) -> Result<(), Failure> {
-    match state.cold(usual) {
+    match state.cold(ROUNDED * usual) {
         Some(i) => Err(Failure::Diverged {
             step: 1,
             time_s: 0.0,
             place: system.spot(i),
             quantity: "temperature [K]".to_owned(),
-            what: too_cold(state.temperature[i]),
+            what: too_cold(state.temperature[i], system.takes()),
         }),
         None => Ok(()),
     }

@@ -152,6 +152,29 @@ fn what_is_colder_than_nothing_ends_with_its_place() {
 }
 
 #[test]
+fn what_cools_to_nothing_ends_near_it_and_is_not_blamed_on_a_flux() {
+    for coefficient in [1e3, 1e6] {
+        for march in [
+            json!({"implicit": {}}),
+            json!({"implicit": {"tolerance": 1e-2}}),
+            json!({"stabilised": {"step_s": 20}}),
+        ] {
+            let mut scene = bar(&json!(300));
+            let cooled = json!({"coefficient_w_m2_k": coefficient, "ambient_k": 0});
+            scene["boundaries"] = json!([{"on": ["x-", "x+"], "convection": cooled}]);
+            scene.as_object_mut().unwrap().remove("steady");
+            scene["time"] = march.clone();
+            scene["time"]["end_s"] = json!(5000);
+            let (code, _, said) = run("run", &scene);
+            assert_eq!(code, Some(0), "{march}: {said}");
+        }
+    }
+    // What no step resolves is told for what it is.
+    let told = heatsph::march::too_cold(-20.0, false);
+    assert!(told.contains("step_s") && !told.contains("flux"), "{told}");
+}
+
+#[test]
 fn held_points_that_stand_for_another_area_are_told() {
     for (high, code) in [(0.015, 0), (0.0045, 3)] {
         let mut scene = bar(&json!(300));

@@ -12,9 +12,10 @@ use crate::solve::SolveError;
 use crate::system::storage::{Content, Storage};
 use crate::system::{Rates, System, extent};
 
-/// Part of the range of temperature by which schemes undershoot 0 K, and part of a usual temperature that is rounding.
+/// Part of the range of temperature at an instant by which schemes undershoot 0 K.
 const UNDERSHOOT: f64 = 0.02;
-const ROUNDED: f64 = 1e-9;
+/// Part of a usual temperature that is rounding.
+pub const ROUNDED: f64 = 1e-9;
 /// Cells that one task goes over.
 const CELLS: usize = 256;
 
@@ -43,13 +44,17 @@ pub fn nothing(low: f64, high: f64) -> f64 {
     NOTHING * low.abs().max(high.abs())
 }
 
-/// What is said of a temperature \[K\] below 0 K.
+/// What is said of a temperature \[K\] below 0 K, where fluxes and sources may take heat out whatever the temperature, or where none do.
 #[must_use]
-pub fn too_cold(temperature: f64) -> String {
-    format!(
-        "{temperature:.4e} K is below 0 K: more heat is taken out than the body holds; fluxes and sources that take heat out \
-         are negative, and end before it is gone"
-    )
+pub fn too_cold(temperature: f64, taken: bool) -> String {
+    let why = if taken {
+        "more heat is taken out than the body holds; fluxes and sources that take heat out are negative, and end before it is \
+         gone"
+    } else {
+        "nothing takes heat out of what is cold, so steps or points err by as much: a smaller \"tolerance\" or \"step_s\", or more \
+         points where it cools, help"
+    };
+    format!("{temperature:.4e} K is below 0 K: {why}")
 }
 
 /// Why a step failed.
@@ -165,11 +170,11 @@ impl State {
         self.temperature.iter().position(|t| !t.is_finite())
     }
 
-    /// The coldest point, where it is below 0 K by more than schemes undershoot; `usual` is a temperature of the scene \[K\].
+    /// The coldest point, where it is below 0 K by more than schemes undershoot and by more than `error` \[K\].
     #[must_use]
-    pub fn cold(&self, usual: f64) -> Option<usize> {
+    pub fn cold(&self, error: f64) -> Option<usize> {
         let (low, high) = extent(&self.temperature);
-        let below = (UNDERSHOOT * (high - low)).max(ROUNDED * usual);
+        let below = (UNDERSHOOT * (high - low)).max(error);
         let coldest = |t: &f64| *t <= low;
         (low < -below).then(|| self.temperature.iter().position(coldest))?
     }

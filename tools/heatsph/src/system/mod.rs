@@ -15,7 +15,7 @@ pub use rates::Rates;
 
 use run::property::OutOfRange;
 
-use crate::boundary::{Film, Passed, Surface};
+use crate::boundary::{Condition, Film, Passed, Surface};
 use crate::cloud::Cloud;
 use crate::material::{Law, Materials, arguments};
 use crate::operator::Links;
@@ -113,6 +113,16 @@ impl System {
     #[must_use]
     pub fn has_source(&self) -> bool {
         self.source.is_some() || self.torches.is_some()
+    }
+
+    /// Whether something may take heat out whatever the temperature: a source or a flux that is not a positive number.
+    #[must_use]
+    pub fn takes(&self) -> bool {
+        let flux = |condition: &Condition| match condition {
+            Condition::Flux(flux) => flux.curve.constant().is_none_or(|value| value < 0.0),
+            _ => false,
+        };
+        self.source.is_some() || self.surface.conditions.iter().any(flux)
     }
 
     /// The system with torches.
