@@ -18,8 +18,10 @@ const HALF: [f64; 2] = [0.006, 0.002];
 /// Mean temperature and amplitude \[K\].
 const MEAN: f64 = 500.0;
 const AMPLITUDE: f64 = 100.0;
-/// Flat, and turned so that faces are staircases.
-const METHODS: &[&str] = &["flat", "one-to-one", "one-to-two"];
+/// Flat, as a bar whose sides hold as many layers although one is longer, and turned so that faces are staircases.
+const METHODS: &[&str] = &["flat", "unlike", "one-to-one", "one-to-two"];
+/// Longer side of the bar `unlike` over the shorter one.
+const UNLIKE: f64 = 1.03;
 
 /// The case.
 pub(super) struct PoolPlate;
@@ -61,7 +63,10 @@ impl Case for PoolPlate {
         let angle = slope.atan();
         // Turned about y, so that what lay along x lies along (cos, 0, -sin).
         let way = [angle.cos(), -angle.sin()];
-        let [wide, thick] = HALF;
+        let [wide, thick] = match method {
+            "unlike" => [HALF[1], UNLIKE * HALF[1]],
+            _ => HALF,
+        };
         let long = 0.5 * LENGTH;
         let plate = json!({"box": {"min_m": [-long, -wide, -thick], "max_m": [long, wide, thick]}});
         let shape = match angle > 0.0 {

@@ -245,6 +245,7 @@ impl<'a> Source<'a> {
         };
         let mut conduction = Conduction::new(heat, caloric.clone(), self.scene.metal())
             .map_err(|fault| fault.within("/heat"))?
+            .of_cells(self.scene.lattice().cell())
             .beside_walls(
                 self.scene
                     .faces

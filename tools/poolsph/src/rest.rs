@@ -9,19 +9,22 @@
 //! `sum of W(|x_a - image of x_b|)` over b and its images in the named planes, which is symmetric
 //! in a and b: conduction along a flat face is as in the inside, and across it nothing flows.
 //! Only particles that have never moved take part; a mirror would be wrong for a bead. Beside free faces that no scene names
-//! weights are raised for what flows along them (`rest/cut`).
+//! weights are raised for what flows along them (`rest/cut`). Where the spacings of the lattice differ along the axes, weights make it conduct
+//! alike along all of them (`rest/stretched`).
 
 mod cut;
 mod standing;
+mod stretched;
 
 use std::collections::BTreeMap;
 
 use kernels::CubicSpline;
 use particles::{Matter, POSITION};
-use shapes::frame::{difference, distance};
+use shapes::frame::{difference, distance, squared};
 
 use self::cut::Cuts;
 use self::standing::Standing;
+use self::stretched::Stretched;
 use crate::state::{DROPLET, FUSED, LIQUID, PHASE, State, marked, phase};
 
 /// A plane across an axis.
@@ -62,6 +65,8 @@ pub struct Rest {
     /// Of the lattice \[m\].
     spacing: f64,
     mirrors: Vec<Plane>,
+    /// The lattice of what has never moved, where it is not even.
+    lattice: Option<Stretched>,
     /// All named faces.
     faces: Vec<Plane>,
     part: Vec<Part>,
@@ -83,6 +88,15 @@ impl Rest {
             mirrors,
             ..Self::default()
         }
+    }
+
+    /// The same on a lattice whose spacings along the axes are `cell` \[m\], where that of the even one has the sum `second` of r^2 W
+    /// \[1/m\].
+    #[must_use]
+    pub fn of_cells(mut self, cell: [f64; 3], second: f64) -> Self {
+        let lattice = |kernel| Stretched::of(cell, kernel, second);
+        self.lattice = self.kernel.and_then(lattice);
+        self
     }
 
     /// Row of particle `a`, ascending; empty for one that does not rest.
@@ -244,6 +258,10 @@ impl Rest {
         if direct <= 0.0 || self.part[a] == Part::Settled || self.part[b] == Part::Settled {
             return direct;
         }
+        let weigh = |way: [f64; 3]| {
+            let factor = self.lattice.map_or(1.0, |lattice| lattice.factor(way));
+            factor * kernel.value(squared(way).sqrt())
+        };
         let reach = kernel.support();
         let beside = |plane: &&Plane| (at[plane.axis] - plane.at).abs() < reach;
         let planes: Vec<&Plane> = self.mirrors.iter().filter(beside).collect();
@@ -255,7 +273,7 @@ impl Rest {
                     image[plane.axis] = 2.0 * plane.at - image[plane.axis];
                 }
             }
-            sum += kernel.value(distance(at, image));
+            sum += weigh(difference(at, image));
         }
         match self.cuts.as_ref().filter(|cuts| !cuts.is_empty()) {
             Some(cuts) => sum * cuts.factor(a, b, difference(at, to)),
@@ -332,6 +350,38 @@ mod tests {
             (2.0 * corner - middle).abs() < 1e-12 * middle,
             "{corner} {middle}"
         );
+    }
+
+    #[test]
+    fn a_lattice_of_unlike_spacings_conducts_alike_along_all_axes() {
+        let kernel = CubicSpline::<3>::new(1.0);
+        // Sum r^2 W over the faces, edges and corners of a cell of 1 m, with W = 0 from 2 m on.
+        let of = |count: f64, square: f64| count * square * kernel.value(square.sqrt());
+        let second = of(6.0, 1.0) + of(12.0, 2.0) + of(8.0, 3.0);
+        for cell in [[1.0; 3], [1.03, 0.99, 0.98], [0.97, 1.01, 1.02]] {
+            let mut state = block();
+            for place in state.metal.column_mut(&POSITION) {
+                *place = std::array::from_fn(|k| place[k] * cell[k]);
+            }
+            let plane = |axis: usize, at, outward| Plane { axis, at, outward };
+            let ends = |k: usize| [plane(k, 0.0, -1.0), plane(k, 6.0 * cell[k], 1.0)];
+            let mirrors = (0..3).flat_map(ends).collect();
+            let mut rest = Rest::new(METAL, mirrors, &[]).of_cells(cell, second);
+            rest.update(&state);
+            let places = state.metal.column(&POSITION);
+            for axis in 0..3 {
+                let moment = |a: usize| -> f64 {
+                    let row = rest.row(a).iter();
+                    let square = |b: u32| (places[a][axis] - places[b as usize][axis]).powi(2);
+                    row.map(|link| link.weight * square(link.to)).sum()
+                };
+                // In the middle on both sides, in the corner on one.
+                for whole in [moment(2 + 6 * 2 + 36 * 2), 2.0 * moment(0)] {
+                    let off = 3.0 * whole / second - 1.0;
+                    assert!(off.abs() < 1e-12, "{cell:?}, axis {axis}: {off}");
+                }
+            }
+        }
     }
 
     #[test]

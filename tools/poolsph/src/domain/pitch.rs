@@ -1,8 +1,8 @@
 //! Spacings of the lattice along the axes with which particles fill boxes as they are.
 //!
 //! A side of length L holds n layers, L/n apart. The spacings of the axes differ from one another by at most a twentieth, so
-//! that sums over the cubic lattice hold on this one too: of one stretched by so much they differ by 0.5 % (conduction) and
-//! 1e-4 (density). A particle holds the volume of a cell, and d is the edge of the cube of that volume.
+//! that sums over the cubic lattice hold on this one too: of one stretched by so much they differ by up to 1 % (conduction, put right
+//! where metal rests: `rest/stretched`) and 1e-4 (density). A particle holds the volume of a cell, and d is the edge of the cube of that volume.
 
 /// Most by which the spacings of two axes differ.
 const APART: f64 = 0.05;

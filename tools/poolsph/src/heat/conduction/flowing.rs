@@ -4,7 +4,8 @@
 use neighbours::ROWS;
 use rayon::prelude::*;
 
-use super::{Conduction, Exchanged};
+use super::Conduction;
+use super::exchanged::Exchanged;
 use crate::faces::Turn;
 use crate::near::{Near, Role};
 use crate::stage::StageError;

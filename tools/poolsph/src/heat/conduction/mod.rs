@@ -23,6 +23,7 @@
 //! Explicit in time; with every step divided so that
 //! dt <= rho sum(r^2 W) / (6 (k/c)_max sum W), no particle leaves the range of its neighbours.
 
+mod exchanged;
 mod flowing;
 
 use std::ops::Range;
@@ -35,6 +36,7 @@ use run::Fault;
 use run::property::Curve;
 use steps::{Figure, Limit};
 
+use self::exchanged::Exchanged;
 use crate::heat::bounds::{moments, outside};
 use crate::heat::caloric::Caloric;
 use crate::heat::held::Held;
@@ -47,34 +49,6 @@ use crate::state::{ENTHALPY, State, TEMPERATURE, WALL, marked};
 
 /// Crowding of a liquid over the lattice that the step limit allows for.
 const CROWDING: f64 = 1.1;
-
-/// What a particle is after an exchange.
-#[derive(Debug, Clone, Copy)]
-struct Exchanged {
-    a: u32,
-    enthalpy: f64,
-    temperature: f64,
-    /// Heat that left through an open face, or into a wall in the plane of one \[J\].
-    out: f64,
-    /// Has a pair that exchanges heat.
-    busy: bool,
-    /// Has such a pair with a particle that is passed over.
-    wakes: bool,
-}
-
-impl Exchanged {
-    /// A particle of an enthalpy \[J/kg\] and temperature \[K\] as it is.
-    fn unchanged(a: u32, enthalpy: f64, temperature: f64) -> Self {
-        Self {
-            a,
-            enthalpy,
-            temperature,
-            out: 0.0,
-            busy: false,
-            wakes: false,
-        }
-    }
-}
 
 /// Heat conduction as a stage.
 pub struct Conduction {
@@ -159,6 +133,13 @@ impl Conduction {
             particles,
             temperature,
         });
+    }
+
+    /// Metal that begins on a lattice whose spacings along the axes are `cell` \[m\].
+    #[must_use]
+    pub fn of_cells(mut self, cell: [f64; 3]) -> Self {
+        self.rest = self.rest.of_cells(cell, moments(self.metal).0);
+        self
     }
 
     /// Takes account of walls in the planes of faces, which hold a temperature.
