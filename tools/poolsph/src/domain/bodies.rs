@@ -23,6 +23,17 @@ pub struct Cut {
     pub normal: [f64; 3],
 }
 
+impl Cut {
+    /// How far beyond the plane a place is \[m\].
+    fn beyond(&self, place: [f64; 3]) -> f64 {
+        let length = self.normal.iter().map(|n| n * n).sum::<f64>().sqrt();
+        (0..3)
+            .map(|k| (place[k] - self.point[k]) * self.normal[k])
+            .sum::<f64>()
+            / length
+    }
+}
+
 /// A body ready to be filled.
 #[derive(Debug, Clone)]
 pub struct Body {
@@ -109,17 +120,14 @@ pub fn fill(
         edge: CLEARANCE * d,
         cells: HashMap::new(),
     };
+    let mut earlier = Vec::with_capacity(bodies.len());
     let mut filled = Vec::with_capacity(bodies.len());
     for (i, body) in bodies.iter().enumerate() {
         let points = body_points(body);
-        // Lattices of two bodies may leave room between their particles; the other liquid has no place there.
-        let other = bodies[..i].iter();
-        let other = other.filter(|b| b.slag != body.slag && b.cuts.is_empty());
-        let other: Vec<_> = other.filter_map(|b| b.shape.plain()).collect();
-        let other: Vec<_> = other.iter().map(|s| shapes::Body::new(s, 3)).collect();
+        // The particles of an earlier body may leave room between them; a later one has no place there.
         let (kept, crowded): (Vec<_>, Vec<_>) = points
             .into_iter()
-            .partition(|p| !occupied.near(*p) && !other.iter().any(|earlier| earlier.holds(*p)));
+            .partition(|p| !occupied.near(*p) && !within(&earlier, *p));
         for &position in &kept {
             let (temperature, enthalpy) = warmth(body, position, caloric)
                 .map_err(|what| Fault::at(&format!("/bodies/{i}/temperature_k"), what))?;
@@ -144,8 +152,18 @@ pub fn fill(
             placed: kept.len(),
             left_out: crowded.len(),
         });
+        let shape = body.shape.plain();
+        earlier.extend(shape.map(|shape| (shapes::Body::new(&shape, 3), body)));
     }
     Ok(filled)
+}
+
+/// Whether a place is within one of the bodies, as their shapes and cuts have it.
+fn within(bodies: &[(shapes::Body, &Body)], place: [f64; 3]) -> bool {
+    let mut bodies = bodies.iter();
+    bodies.any(|(shape, body)| {
+        shape.holds(place) && !body.cuts.iter().any(|cut| cut.beyond(place) > 0.0)
+    })
 }
 
 /// Velocity \[m/s\] of a body at a place.
@@ -194,12 +212,8 @@ fn body_points(body: &Body) -> Vec<[f64; 3]> {
     let d = edge(body.pitch);
     let mut points = body.round.points(&body.shape, body.pitch, body.lattice);
     for cut in &body.cuts {
-        let length = cut.normal.iter().map(|n| n * n).sum::<f64>().sqrt();
-        points.retain(|p| {
-            let beyond: f64 = (0..3).map(|k| (p[k] - cut.point[k]) * cut.normal[k]).sum();
-            // A point on the plane is kept, whatever the rounding.
-            beyond <= 1e-9 * d * length
-        });
+        // A point on the plane is kept, whatever the rounding.
+        points.retain(|p| cut.beyond(*p) <= 1e-9 * d);
     }
     points
 }
@@ -293,6 +307,24 @@ mod tests {
             }
         }
         assert_eq!(state.liquid(), filled[1].placed);
+    }
+
+    #[test]
+    fn nothing_of_a_later_body_stands_between_the_particles_of_an_earlier_one() {
+        let mut state = empty();
+        // The middle of the ball, between its particles, is a place of the box.
+        let centre_m = [4.5 * D; 3];
+        let ball = Sphere {
+            name: None,
+            centre_m: centre_m.to_vec(),
+            radius_m: 3.0 * D,
+        };
+        let ball = body(Shape::Sphere(ball), phase::LIQUID);
+        let filled = put(&mut state, &[ball, body(cube(9.0 * D), phase::LIQUID)]);
+        for p in &state.metal.column(&POSITION)[filled[0].placed..] {
+            let far: f64 = (0..3).map(|k| (p[k] - centre_m[k]).powi(2)).sum();
+            assert!(far.sqrt() > 3.0 * D * (1.0 - 1e-12), "{p:?}");
+        }
     }
 
     #[test]
