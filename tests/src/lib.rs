@@ -27,6 +27,7 @@ pub mod heat;
 pub mod keep;
 pub mod lab;
 mod meniscus;
+mod neumann;
 pub mod norms;
 pub mod operators;
 mod particles;

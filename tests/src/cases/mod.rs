@@ -97,6 +97,7 @@ mod pool_stefan;
 mod pool_surface_heat;
 mod saw_float;
 mod saw_layer;
+mod saw_slag;
 mod solid_cook;
 mod solid_patch;
 mod solid_plastic;
@@ -135,6 +136,7 @@ fn grains() -> Vec<Box<dyn Case>> {
         Box::new(dem_silo::DemSilo),
         Box::new(saw_float::SawFloat),
         Box::new(saw_layer::SawLayer),
+        Box::new(saw_slag::SawSlag),
     ]
 }
 

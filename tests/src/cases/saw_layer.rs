@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::grains::{fault, mass};
 use crate::lab::{Finished, Lab, LabError};
+use crate::neumann::{front, halved};
 use crate::norms::relative;
 use crate::particles::number;
 use crate::special::erf;
@@ -273,31 +274,6 @@ impl Exact {
     }
 }
 
-/// The constant l of a front, `behind exp(-l^2)/erf l - beyond k exp(-l^2/a)/(sqrt(a) erfc(l/sqrt a)) = l sqrt(pi)`: Stefan numbers behind and
-/// beyond it, and conductivity and diffusivity beyond over those behind.
-fn front([behind, beyond]: [f64; 2], k: f64, a: f64) -> f64 {
-    let heat = |l: f64| {
-        let far = l / a.sqrt();
-        let gives = behind * (-l * l).exp() / erf(l);
-        let takes = beyond * k * (-far * far).exp() / (a.sqrt() * (1.0 - erf(far)));
-        gives - takes - l * PI.sqrt()
-    };
-    halved(1e-9, 3.0, |l| heat(l) > 0.0)
-}
-
-/// Where `above` ceases to hold.
-fn halved(mut low: f64, mut high: f64, above: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..80 {
-        let middle = 0.5 * (low + high);
-        if above(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
-}
-
 /// What frames tell of one side: distances from the face, when each point changed, and temperatures at the end.
 struct Side {
     away: Vec<f64>,
@@ -389,17 +365,4 @@ fn energy(run: &Finished, reader: &Reader) -> Result<f64, LabError> {
     let metal = change("/balance", "energy_stored_j")?;
     let grains = change("/grains_balance", "enthalpy_j")?;
     Ok((metal + grains).abs() / grains.abs())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_front_of_equal_halves_has_its_known_constant() {
-        // Stefan number 1 without heat beyond: lambda = 0.620063 (Alexiades and Solomon 1993, section 2.1).
-        assert!((front([1.0, 0.0], 1.0, 1.0) - 0.620_063).abs() < 1e-6);
-        // A medium beyond that conducts nothing takes nothing.
-        assert!((front([1.0, 0.7], 1e-12, 1.0) - 0.620_063).abs() < 1e-6);
-    }
 }

@@ -31,7 +31,7 @@ use crate::forces::marangoni::Marangoni;
 use crate::forces::surface_stress::SurfaceStress;
 use crate::forces::tension::Tension;
 use crate::frames::PlateNote;
-use crate::heat::{self, Caloric, Conduction};
+use crate::heat::{self, Caloric, Conduction, Substances};
 use crate::march::March;
 use crate::motion::{self, Law, Motion, OnColdMetal};
 use crate::patch::AREA;
@@ -64,6 +64,8 @@ pub struct Assembled {
 struct Source<'a> {
     scene: &'a Scene,
     caloric: Option<Arc<Caloric>>,
+    /// What has a temperature, where anything has.
+    made: Option<Substances>,
     arcs: Arcs,
 }
 
@@ -89,17 +91,11 @@ pub fn assemble(scene: &Scene, inputs: &Inputs) -> Result<Assembled, Failure> {
     // which the stages keep at a temperature.
     let mut state = State::new(scene.metal());
     source.stages(&mut state, Vec::new(), None)?;
-    if let Some(slag) = scene.slag {
+    if let Some(slag) = &scene.slag {
         state.metal.declare(&SLAG);
-        state.slag = Some(slag.slag());
+        state.slag = Some(slag.slag()?.0);
     }
-    let filled = metal::fill(
-        scene,
-        inputs,
-        &bodies,
-        &mut state,
-        source.caloric.as_deref(),
-    )?;
+    let filled = metal::fill(scene, inputs, &bodies, &mut state, source.made.as_ref())?;
     state.faces = faces;
     fitting(&state).map_err(|fault| fault.within("/faces"))?;
     if let Some(heat) = &scene.heat {
@@ -164,13 +160,11 @@ fn checked_bodies(scene: &Scene, faults: &mut Vec<Fault>) -> Vec<Body> {
 
 impl<'a> Source<'a> {
     fn read(scene: &'a Scene, inputs: &Inputs) -> Result<Self, Failure> {
-        let caloric = match &scene.heat {
-            Some(heat) => Some(heat.caloric().map_err(|fault| fault.within("/heat"))?),
-            None => None,
-        };
+        let made = scene.substances()?;
         Ok(Self {
             scene,
-            caloric,
+            caloric: made.as_ref().map(|made| made.metal().clone()),
+            made,
             arcs: Arcs::read(scene, inputs)?,
         })
     }
@@ -217,8 +211,11 @@ impl<'a> Source<'a> {
         parts.when(Room::Flow, "flow", scene.flow.as_ref(), |flow| {
             let law = self.viscosity(flow)?;
             let motion = Motion::new(flow.clone(), law, scene.metal());
-            Ok(Box::new(match scene.slag {
-                Some(slag) => motion.beside(slag.slag()),
+            Ok(Box::new(match &scene.slag {
+                Some(slag) => {
+                    let (slag, law) = slag.slag()?;
+                    motion.beside(slag, law)
+                }
                 None => motion,
             }))
         })?;
@@ -239,11 +236,12 @@ impl<'a> Source<'a> {
     }
 
     fn heat(&self, parts: &mut Parts, held: Held) -> Result<(), Failure> {
-        let (Some(heat), Some(caloric)) = (&self.scene.heat, &self.caloric) else {
+        let (Some(heat), Some(caloric), Some(made)) = (&self.scene.heat, &self.caloric, &self.made)
+        else {
             parts.leave_out("heat");
             return Ok(());
         };
-        let mut conduction = Conduction::new(heat, caloric.clone(), self.scene.metal())
+        let mut conduction = Conduction::new(heat, made.clone(), self.scene.metal())
             .map_err(|fault| fault.within("/heat"))?
             .of_cells(self.scene.lattice().cell())
             .beside_walls(
@@ -265,12 +263,11 @@ impl<'a> Source<'a> {
         })?;
         let torches = Some(&self.scene.torches).filter(|torches| !torches.is_empty());
         parts.when(Room::Heat, "torches", torches, |torches| {
-            let stage = heat::Torches::new(torches, caloric.clone(), self.scene.metal());
+            let stage = heat::Torches::new(torches, made.clone(), self.scene.metal());
             Ok(Box::new(stage?))
         })?;
         parts.when(Room::Heat, "losses", self.scene.losses, |losses| {
-            let metal = self.scene.metal();
-            Ok(Box::new(heat::Losses::new(losses, caloric.clone(), metal)))
+            Ok(Box::new(heat::Losses::new(losses, made.clone())))
         })
     }
 
@@ -333,8 +330,8 @@ impl<'a> Source<'a> {
         parts.when(Room::Forces, "tension", scene.tension, |tension| {
             if scene.even() {
                 let stage = Capillary::new(tension);
-                return Ok(Box::new(match scene.slag {
-                    Some(slag) => stage.beside(slag.slag()),
+                return Ok(Box::new(match &scene.slag {
+                    Some(slag) => stage.beside(slag.slag()?.0),
                     None => stage,
                 }));
             }

@@ -79,7 +79,12 @@ impl Balance {
         }
         let enthalpies = state.metal.column(&ENTHALPY);
         let heat = (!enthalpies.is_empty()).then(|| Heat {
-            stored: mass * enthalpies.iter().sum::<f64>(),
+            stored: match state.slag {
+                None => mass * enthalpies.iter().sum::<f64>(),
+                Some(_) => (enthalpies.iter().enumerate())
+                    .map(|(a, own)| state.mass(a) * own)
+                    .sum(),
+            },
             parts: of_unit(figures, "J"),
         });
         Self {

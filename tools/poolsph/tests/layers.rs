@@ -264,4 +264,104 @@ fn slag_that_cannot_be_is_refused_by_name() {
         scene["faces"]["contact_angles"] = json!([{"face": "z-", "angle_deg": 60}]);
     };
     refused(angles, "/faces/contact_angles");
+    let warm = |scene: &mut Value| scene["heat"] = metal_heat();
+    refused(warm, "/slag/heat");
+    let alone = |scene: &mut Value| scene["slag"]["heat"] = slag_heat();
+    refused(alone, "/slag/heat");
+    let cold = |scene: &mut Value| {
+        (scene["heat"], scene["slag"]["heat"]) = (metal_heat(), slag_heat());
+        scene["flow"]["on_cold_metal"] = json!("sticks");
+    };
+    refused(cold, "/flow/on_cold_metal");
+    let steep = |scene: &mut Value| {
+        (scene["heat"], scene["slag"]["heat"]) = (metal_heat(), slag_heat());
+        scene["slag"]["viscosity_pa_s"] = json!({"t_k": [300, 2000], "value": [1.0, -0.1]});
+    };
+    refused(steep, "/slag/viscosity_pa_s");
+}
+
+fn metal_heat() -> Value {
+    json!({"thermal_conductivity_w_m_k": 30, "specific_heat_j_kg_k": 700, "melting": {"point_k": 1750, "latent_heat_j_kg": 2.5e5}})
+}
+
+fn slag_heat() -> Value {
+    json!({"thermal_conductivity_w_m_k": 2, "specific_heat_j_kg_k": 1200, "melting": {"point_k": 1450, "latent_heat_j_kg": 4.5e5}})
+}
+
+/// Hot metal under cold slag that stiffens where it is cold, in a basin whose sides are mirrors.
+fn warm(scale: f64) -> Value {
+    let mut scene = basin(scale, 2);
+    scene["faces"]["periodic"] = json!([]);
+    scene["faces"]["mirror"] = json!(["x-", "x+", "y-", "y+"]);
+    (scene["heat"], scene["slag"]["heat"]) = (metal_heat(), slag_heat());
+    scene["slag"]["heat"]["thermal_conductivity_w_m_k"] = json!(20);
+    scene["bodies"][0]["temperature_k"] = json!(1850);
+    scene["bodies"][1]["temperature_k"] = json!(600);
+    scene["slag"]["viscosity_pa_s"] = json!({"expr": "0.02 + 0.5*exp(-(T - 600)/400)"});
+    scene["output"]["balance_interval_s"] = json!(0.05);
+    scene
+}
+
+/// Heat stored \[J\], and errors of the mass and of the energy, at the end of a run.
+fn balance(folder: &Path) -> [f64; 3] {
+    let reader = Reader::open(folder.join("layers.mcap")).unwrap();
+    let records = reader.records("/balance").unwrap();
+    let of = |k: usize, name: &str| records[k].1.get(name).unwrap();
+    let last = records.len() - 1;
+    let [first, mass] = [0, last].map(|k| of(k, "mass_kg"));
+    [
+        of(last, "energy_stored_j"),
+        mass / first - 1.0,
+        of(last, "closure"),
+    ]
+}
+
+#[test]
+fn slag_and_metal_exchange_heat_and_none_is_lost() {
+    let folder = tempfile::tempdir().unwrap();
+    let (said, code, frame) = run(folder.path(), &warm(1.0), &["--threads", "2"]);
+    assert_eq!(code, Some(0), "{said}");
+    let frame = frame.unwrap();
+    let (temperatures, slag) = (frame.f64("temperature").unwrap(), frame.u8("slag").unwrap());
+    let most = |of: u8| {
+        let own = temperatures
+            .iter()
+            .zip(slag)
+            .filter(|(_, mark)| **mark == of);
+        own.fold([f64::INFINITY, 0.0], |[low, high], (t, _)| {
+            [t.min(low), t.max(high)]
+        })
+    };
+    let ([coldest, hottest], [cold, hot]) = (most(0), most(1));
+    assert!(coldest < 1849.0 && hottest <= 1850.0, "{coldest} {hottest}");
+    assert!(cold >= 600.0 && hot > 601.0, "{cold} {hot}");
+    let [stored, mass, energy] = balance(folder.path());
+    let exchanged = 1e-9 * 6.0 * 6.0 * 4.0 * 2700.0 * 1200.0 * 50.0;
+    assert!(
+        stored.abs() < 1e-10 * exchanged && mass.abs() < 1e-12 && energy.abs() < 1e-10,
+        "{stored}"
+    );
+    // The same bytes on one thread.
+    let again = tempfile::tempdir().unwrap();
+    let (_, _, other) = run(again.path(), &warm(1.0), &["--threads", "1"]);
+    assert_eq!(temperatures, other.unwrap().f64("temperature").unwrap());
+}
+
+#[test]
+fn what_a_torch_gives_to_slag_and_what_slag_radiates_is_balanced() {
+    let mut scene = warm(1.0);
+    scene["torches"] = json!([{
+        "power_w": 500, "shape": {"gaussian": {"radius_m": 2e-3}}, "path": {"points_m": [[3e-3, 3e-3, 9e-3]]}, "efficiency": 1
+    }]);
+    scene["losses"] = json!({"emissivity": 0.8, "transfer_w_m2_k": 1e3, "surroundings_k": 300});
+    let folder = tempfile::tempdir().unwrap();
+    let (said, code, _) = run(folder.path(), &scene, &[]);
+    assert!(matches!(code, Some(0 | 3)), "{said}");
+    let [stored, mass, energy] = balance(folder.path());
+    // 500 W over 50 ms, less what is radiated.
+    assert!((5.0..25.0).contains(&stored), "{stored}");
+    assert!(
+        mass.abs() < 1e-12 && energy.abs() < 1e-10,
+        "{mass} {energy}"
+    );
 }

@@ -141,6 +141,30 @@ fn a_held_temperature_below_nothing_ends_the_run() {
 }
 
 #[test]
+fn metal_that_freezes_upon_a_wall_of_held_temperature_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let slab = |kelvin: f64| {
+        plate(&json!({
+            "bodies": [{"shape": {"box": {"min_m": [0, 0, 0], "max_m": [4e-3, 4e-3, 12e-3]}}, "state": "liquid", "temperature_k": 1760}],
+            "heat": {"thermal_conductivity_w_m_k": 300, "specific_heat_j_kg_k": 700,
+                "melting": {"point_k": 1750, "latent_heat_j_kg": 250e3}},
+            "time": {"step_s": 2e-3, "end_s": 0.3},
+            "flow": {"viscosity_pa_s": 0.005},
+            "faces": {"min_m": [0, 0, 0], "max_m": [4e-3, 4e-3, 12e-3], "mirror": ["x-", "x+", "y-", "y+"],
+                "wall": [{"face": "z-", "temperature_k": kelvin}, {"face": "z+"}]}
+        }))
+    };
+    let (code, said) = run(folder.path(), &slab(300.0));
+    assert_eq!(code, Some(3), "{said}");
+    assert!(
+        said.contains("froze beside a wall of held temperature takes no heat"),
+        "{said}"
+    );
+    let (code, said) = run(folder.path(), &slab(1755.0));
+    assert_eq!(code, Some(0), "{said}");
+}
+
+#[test]
 fn an_arc_that_goes_several_spacings_in_a_step_leaves_a_line_and_no_spots() {
     let folder = tempfile::tempdir().unwrap();
     // Without conduction worth the name each particle keeps what fell on it.

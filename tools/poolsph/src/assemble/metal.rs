@@ -3,7 +3,7 @@
 use run::{Failure, Inputs};
 
 use crate::domain::bodies::{self, Body, Filled};
-use crate::heat::Caloric;
+use crate::heat::Substances;
 use crate::scene::Scene;
 use crate::source::start;
 use crate::state::State;
@@ -14,16 +14,16 @@ pub(super) fn fill(
     inputs: &Inputs,
     bodies: &[Body],
     state: &mut State,
-    caloric: Option<&Caloric>,
+    made: Option<&Substances>,
 ) -> Result<Vec<Filled>, Failure> {
     match (scene.start, inputs.get("start")) {
-        (None, None) => Ok(bodies::fill(state, bodies, caloric)?),
+        (None, None) => Ok(bodies::fill(state, bodies, made)?),
         (None, Some(_)) => Err(Failure::Usage(
             "the input 'start' is of no use: the scene has no key 'start'".to_owned(),
         )),
         (Some(start), _) => {
             let earlier = start::read(inputs.path("start")?)?;
-            earlier.fill(state, start, caloric)?;
+            earlier.fill(state, start, made.map(|made| made.metal().as_ref()))?;
             Ok(Vec::new())
         }
     }

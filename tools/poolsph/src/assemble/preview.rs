@@ -46,12 +46,9 @@ pub fn preview(scene: &Scene, inputs: &Inputs) -> Result<Preview, Failure> {
 
 /// Particles of the bodies of metal.
 fn metal(scene: &Scene, all: &[Body], preview: &mut Preview) -> Result<(), Failure> {
-    let caloric = match &scene.heat {
-        Some(heat) => Some(heat.caloric().map_err(|fault| fault.within("/heat"))?),
-        None => None,
-    };
+    let made = scene.substances()?;
     let mut state = State::new(scene.metal());
-    let filled = bodies::fill(&mut state, all, caloric.as_deref())?;
+    let filled = bodies::fill(&mut state, all, made.as_ref())?;
     let mut first = 0;
     for (i, (filled, body)) in filled.iter().zip(&scene.bodies).enumerate() {
         let kind = match body.state {

@@ -7,7 +7,7 @@ use run::property::{Arguments, Curve};
 
 use super::round::Round;
 use super::shape::{Shape, edge};
-use crate::heat::Caloric;
+use crate::heat::{Caloric, Substances};
 use crate::state::slag::SLAG;
 use crate::state::{Particle, State, phase};
 
@@ -105,7 +105,7 @@ impl Occupied {
     }
 }
 
-/// Fills `bodies` in order; `caloric` gives their enthalpy, and is absent where the scene has no
+/// Fills `bodies` in order; what they are `made` of gives their enthalpy, and is absent where the scene has no
 /// heat. Body `i` gets the particles that follow those of the bodies before it.
 ///
 /// # Errors
@@ -113,7 +113,7 @@ impl Occupied {
 pub fn fill(
     state: &mut State,
     bodies: &[Body],
-    caloric: Option<&Caloric>,
+    made: Option<&Substances>,
 ) -> Result<Vec<Filled>, Fault> {
     let d = state.metal.matter.spacing;
     let mut occupied = Occupied {
@@ -124,6 +124,7 @@ pub fn fill(
     let mut filled = Vec::with_capacity(bodies.len());
     for (i, body) in bodies.iter().enumerate() {
         let points = body_points(body);
+        let caloric = made.map(|made| made.which(body.slag).caloric.as_ref());
         // The particles of an earlier body may leave room between them; a later one has no place there.
         let (kept, crowded): (Vec<_>, Vec<_>) = points
             .into_iter()
@@ -198,7 +199,7 @@ fn warmth(
     }
     let enthalpy = caloric.enthalpy(temperature);
     let liquid = body.phase == phase::LIQUID;
-    match caloric.melting_point().filter(|_| !body.wall) {
+    match (caloric.melting_point()).filter(|_| !body.wall && !body.slag) {
         Some(point) if liquid != caloric.is_liquid(enthalpy) => Err(format!(
             "{temperature} K does not fit a {} body that melts at {point} K",
             if liquid { "liquid" } else { "solid" }
@@ -277,8 +278,12 @@ mod tests {
         })
     }
 
+    fn made(caloric: Caloric) -> Substances {
+        Substances::of(std::sync::Arc::new(caloric), empty().metal.matter)
+    }
+
     fn put(state: &mut State, bodies: &[Body]) -> Vec<Filled> {
-        fill(state, bodies, Some(&plain(None))).unwrap()
+        fill(state, bodies, Some(&made(plain(None)))).unwrap()
     }
 
     #[test]
@@ -382,7 +387,7 @@ mod tests {
 
     #[test]
     fn a_body_must_be_as_warm_as_its_state_says() {
-        let steel = plain(Some(1750.0));
+        let steel = made(plain(Some(1750.0)));
         let refused = |phase, kelvin| {
             let mut cold = body(cube(2.0 * D), phase);
             cold.temperature = Curve::Constant(kelvin);

@@ -1,6 +1,8 @@
 //! The planes, and how an image follows from its original.
 
-use run::property::{Arguments, Curve, OutOfRange};
+mod held;
+
+use run::property::Curve;
 use shapes::frame::{along, squared};
 
 /// Cosine between an axis and the normal of a plane up to which the axis lies in it.
@@ -238,12 +240,6 @@ impl Faces {
         self.sides.iter().flatten().any(Option::is_some)
     }
 
-    /// True if a wall keeps a temperature.
-    #[must_use]
-    pub fn holds_heat(&self) -> bool {
-        self.turns.iter().any(Turn::is_held)
-    }
-
     /// True if what leaves along `axis` enters again.
     #[must_use]
     pub fn is_periodic(&self, axis: usize) -> bool {
@@ -339,32 +335,6 @@ impl Faces {
         if temperature.is_some() {
             turn.held.push((axis, upper));
         }
-    }
-
-    /// T of the image of what is at `x` with `temperature` \[K\].
-    ///
-    /// # Errors
-    /// When the formula of a wall fails.
-    pub fn temperature(
-        &self,
-        turn: &Turn,
-        x: [f64; 3],
-        time: f64,
-        temperature: f64,
-    ) -> Result<f64, OutOfRange> {
-        let mut image = temperature;
-        for &(axis, side) in &turn.held {
-            if let Some(Side::Wall {
-                temperature: Some(wall),
-                ..
-            }) = &self.sides[axis][side]
-            {
-                let mut foot = x;
-                foot[axis] = [self.min, self.max][side][axis];
-                image = 2.0 * wall.value(&Arguments::at(foot, time))? - image;
-            }
-        }
-        Ok(image)
     }
 
     /// Brings what has gone through a face back: to the other side of a periodic box, thrown back by a mirror or a wall.

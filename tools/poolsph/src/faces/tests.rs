@@ -2,7 +2,7 @@ use particles::{Matter, POSITION};
 use shapes::frame::{difference, dot, squared};
 
 use super::*;
-use crate::heat::{self, Conduction};
+use crate::heat::{self, Conduction, Substances};
 use crate::motion::around::Around;
 use crate::motion::integration::{CARRIED, PRESSURE};
 use crate::motion::noise::Noise;
@@ -433,7 +433,7 @@ fn between_walls_heat_flows_as_fourier_says() {
             enthalpy: caloric.enthalpy(temperature),
         });
     }
-    let mut conduction = Conduction::new(&parameters, caloric, METAL)
+    let mut conduction = Conduction::new(&parameters, Substances::of(caloric, METAL), METAL)
         .unwrap()
         .beside_walls(true);
     for _ in 0..3 {

@@ -160,6 +160,13 @@ impl Caloric {
         self.fastest
     }
 
+    /// Largest kappa anywhere \[W/(m K)\].
+    #[must_use]
+    pub fn most_conductive(&self) -> f64 {
+        let values = self.conductivity.values().iter().copied();
+        values.fold(0.0, f64::max)
+    }
+
     /// Least specific heat anywhere \[J/(kg K)\].
     #[must_use]
     pub fn least_heat(&self) -> f64 {

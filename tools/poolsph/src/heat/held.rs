@@ -6,8 +6,8 @@ use particles::POSITION;
 use run::property::{Arguments, Curve};
 
 use super::bounds::outside;
-use super::caloric::Caloric;
 use super::ledger::Sum;
+use super::substances::Substances;
 use crate::stage::StageError;
 use crate::state::{ENTHALPY, State, TEMPERATURE};
 
@@ -25,10 +25,14 @@ impl Held {
     pub(crate) fn prescribe(
         &self,
         state: &mut State,
-        caloric: &Caloric,
+        made: &Substances,
         out: &mut Sum,
     ) -> Result<(), StageError> {
-        let (mass, step) = (state.metal.matter.mass(), state.step);
+        let step = state.step;
+        let marks = Substances::marks(&state.metal).get(self.particles.clone());
+        // The particles of a body are all of one substance.
+        let own = made.at(marks.unwrap_or_default(), 0);
+        let (mass, caloric) = (own.mass, own.caloric.as_ref());
         let columns = (&POSITION, &ENTHALPY, &TEMPERATURE);
         let (places, enthalpies, temperatures) = state.metal.columns_mut(columns);
         for a in self.particles.clone() {

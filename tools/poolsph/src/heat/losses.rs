@@ -11,22 +11,21 @@
 //! towards the balance without passing it as long as dt s dA < m c. A longer one is divided, particle
 //! by particle.
 
-use std::sync::Arc;
-
-use particles::{Matter, POSITION};
+use particles::POSITION;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use steps::Figure;
 
 use super::bounds::outside;
-use super::caloric::Caloric;
 use super::chunks::Chunks;
 use super::ledger::Sum;
 use super::received::{self, LOST};
 use super::skin::Skin;
+use super::substances::Substances;
 use super::vapour::Evaporation;
 use crate::patch;
 use crate::stage::{Stage, StageError};
+use crate::state::slag::SLAG;
 use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 /// Stefan-Boltzmann constant \[W/(m2 K4)\].
@@ -71,11 +70,9 @@ pub enum Where {
 /// The losses as a stage.
 pub struct Losses {
     parameters: LossParameters,
-    caloric: Arc<Caloric>,
+    made: Substances,
     /// Radiated, transferred and evaporated \[J\].
     given: [Sum; 3],
-    /// Mass of a particle \[kg\].
-    mass: f64,
     cooled: Chunks<Cooled>,
 }
 
@@ -94,12 +91,11 @@ struct Cooled {
 impl Losses {
     /// The losses of a scene.
     #[must_use]
-    pub fn new(parameters: LossParameters, caloric: Arc<Caloric>, metal: Matter) -> Self {
+    pub fn new(parameters: LossParameters, made: Substances) -> Self {
         Self {
             parameters,
-            caloric,
+            made,
             given: [Sum::default(); 3],
-            mass: metal.mass(),
             cooled: Chunks::default(),
         }
     }
@@ -144,13 +140,14 @@ impl Losses {
             temperature: skin.temperature[a],
             given: [0.0; 3],
         };
-        let mass = self.mass;
+        let own = self.made.which(skin.slag(a));
+        let (mass, caloric) = (own.mass, &own.caloric);
         let (mut flux, mut rise) = self.cooling(cooled.temperature);
         // On the way to the balance the rise is greatest where the metal is hottest.
         if cooled.temperature < self.parameters.surroundings_k {
             rise = self.cooling(self.parameters.surroundings_k).1;
         }
-        let share = dt * area * rise / (mass * self.caloric.least_heat());
+        let share = dt * area * rise / (mass * caloric.least_heat());
         let parts = share.ceil().clamp(1.0, PARTS_MOST);
         for part in 0..parts as u64 {
             if part > 0 {
@@ -163,8 +160,8 @@ impl Losses {
             }
             cooled.given = std::array::from_fn(|i| cooled.given[i] + heat[i]);
             cooled.enthalpy -= sum / mass;
-            cooled.temperature = self.caloric.temperature(cooled.enthalpy);
-            if !self.caloric.covers(cooled.temperature) {
+            cooled.temperature = caloric.temperature(cooled.enthalpy);
+            if !caloric.covers(cooled.temperature) {
                 break;
             }
         }
@@ -187,13 +184,14 @@ impl Stage for Losses {
         let mut cooled = std::mem::take(&mut self.cooled);
         let skin = Skin::of(&state.metal);
         cooled.fill(&state.exposed, |a| self.cool(&skin, a, dt));
-        let columns = (&POSITION, &ENTHALPY, &TEMPERATURE, &LOST);
-        let (places, enthalpies, temperatures, told) = state.metal.columns_mut(columns);
+        let columns = (&POSITION, &ENTHALPY, &TEMPERATURE, &LOST, &SLAG);
+        let (places, enthalpies, temperatures, told, slag) = state.metal.columns_mut(columns);
         for one in cooled.drain() {
             let a = one.a as usize;
-            if !self.caloric.covers(one.temperature) {
+            let caloric = &self.made.at(slag, a).caloric;
+            if !caloric.covers(one.temperature) {
                 let (at, value) = (places[a], one.temperature);
-                return Err(outside(state.step, a, at, value, &self.caloric));
+                return Err(outside(state.step, a, at, value, caloric));
             }
             (enthalpies[a], temperatures[a]) = (one.enthalpy, one.temperature);
             received::add(told, a, one.given.iter().sum());

@@ -19,6 +19,7 @@ mod radial;
 pub mod received;
 mod shade;
 mod skin;
+mod substances;
 mod torches;
 mod vapour;
 
@@ -30,8 +31,9 @@ pub use conduction::Conduction;
 pub use film::GasFilm;
 pub use losses::{LossParameters, Losses, Where};
 pub(crate) use parameters::table;
-pub use parameters::{Faces, MeltingParameters, Parameters};
+pub use parameters::{Faces, MeltingParameters, Parameters, Properties};
 pub use phase::{FlowStart, Phase};
+pub use substances::{Substance, Substances};
 pub use torches::Torches;
 pub(crate) use vapour::MOLAR_GAS;
 pub use vapour::{Evaporation, GasLayer};

@@ -105,8 +105,23 @@ impl Faces {
     }
 }
 
-impl Parameters {
-    /// The thermal properties.
+/// Thermal properties alone: those of slag.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Properties {
+    /// kappa(T).
+    #[schemars(extend("x-unit" = "W/(m K)"))]
+    pub thermal_conductivity_w_m_k: Property,
+    /// c(T).
+    #[schemars(extend("x-unit" = "J/(kg K)"))]
+    pub specific_heat_j_kg_k: Property,
+    /// Melting, which takes up the latent heat; absent: none is taken up.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub melting: Option<MeltingParameters>,
+}
+
+impl Properties {
+    /// What follows from them.
     ///
     /// # Errors
     /// A fault at the key that is wrong.
@@ -129,7 +144,22 @@ impl Parameters {
         });
         Caloric::new(conductivity, &specific_heat, melting, range)
             .map(Arc::new)
-            .map_err(|fault| Fault::at("", format!("properties of the metal: {fault}")))
+            .map_err(|fault| Fault::at("", format!("thermal properties: {fault}")))
+    }
+}
+
+impl Parameters {
+    /// The thermal properties.
+    ///
+    /// # Errors
+    /// A fault at the key that is wrong.
+    pub fn caloric(&self) -> Result<Arc<Caloric>, Fault> {
+        let properties = Properties {
+            thermal_conductivity_w_m_k: self.thermal_conductivity_w_m_k.clone(),
+            specific_heat_j_kg_k: self.specific_heat_j_kg_k.clone(),
+            melting: self.melting,
+        };
+        properties.caloric()
     }
 
     /// Planes of the mirrored and of the open faces.

@@ -16,6 +16,7 @@ use steps::Figure;
 use super::caloric::Caloric;
 use super::contact::Contact;
 use crate::stage::{Stage, StageError};
+use crate::state::slag::SLAG;
 use crate::state::{
     DROPLET, ENTHALPY, FUSED, LIQUID, PHASE, State, TEMPERATURE, VELOCITY, WALL, marked, phase,
 };
@@ -101,8 +102,10 @@ impl Stage for Phase {
         let (mut phases, mut fused) = (state.metal.take(&PHASE), state.metal.take(&FUSED));
         let mut velocities = state.metal.take(&VELOCITY);
         let (enthalpies, wall) = (state.metal.column(&ENTHALPY), state.metal.column(&WALL));
+        let slag = state.metal.column(&SLAG);
         for (a, phase) in phases.iter_mut().enumerate() {
-            if marked(wall, a) || *phase == phase::FLYING {
+            // Slag is liquid, and stiff where it is cold.
+            if marked(wall, a) || marked(slag, a) || *phase == phase::FLYING {
                 continue;
             }
             let molten = self.caloric.molten(enthalpies[a]);

@@ -3,6 +3,7 @@
 use particles::{POSITION, Set};
 
 use crate::patch::Patches;
+use crate::state::slag::SLAG;
 use crate::state::{ENTHALPY, PHASE, TEMPERATURE, WALL, marked, phase};
 
 /// Columns of the metal.
@@ -15,6 +16,7 @@ pub(super) struct Skin<'a> {
     pub(super) temperature: &'a [f64],
     pub(super) surface: Patches<'a>,
     phase: &'a [u8],
+    slag: &'a [bool],
     wall: &'a [bool],
 }
 
@@ -26,8 +28,15 @@ impl<'a> Skin<'a> {
             temperature: metal.column(&TEMPERATURE),
             surface: Patches::of(metal),
             phase: metal.column(&PHASE),
+            slag: metal.column(&SLAG),
             wall: metal.column(&WALL),
         }
+    }
+
+    /// Whether particle `a` is slag.
+    #[inline]
+    pub(super) fn slag(&self, a: usize) -> bool {
+        marked(self.slag, a)
     }
 
     /// Whether particle `a` is metal that can be heated.

@@ -171,7 +171,7 @@ fn a_ball_cools_by_newtons_law() {
         on: Where::All,
     };
     let caloric = Shared::new(plain(1e4, 1.0, None));
-    let mut losses = Losses::new(parameters, Shared::clone(&caloric), METAL);
+    let mut losses = Losses::new(parameters, Substances::of(Shared::clone(&caloric), METAL));
     for _ in 0..100 {
         losses.advance(&mut state, 1.0).unwrap();
         // Well stirred: the exact law is that of a body of one temperature.
@@ -206,7 +206,10 @@ fn radiation_and_vapour_have_their_size() {
         evaporation: None,
         on: Where::Top,
     };
-    let mut losses = Losses::new(parameters, Shared::new(plain(1.0, 1.0, None)), METAL);
+    let mut losses = Losses::new(
+        parameters,
+        Substances::of(Shared::new(plain(1.0, 1.0, None)), METAL),
+    );
     losses.advance(&mut state, 1e-3).unwrap();
     let up = |p: Patch| {
         if p.normal[2] > 0.5_f64.sqrt() {
@@ -239,7 +242,10 @@ fn a_step_too_long_for_the_losses_comes_to_the_balance_and_not_below() {
         let mut state = body([3, 3, 3], |_| true);
         state.metal.column_mut(&TEMPERATURE).fill(3400.0);
         state.metal.column_mut(&ENTHALPY).fill(3400.0);
-        let mut losses = Losses::new(parameters, Shared::new(plain(1.0, 1.0, None)), METAL);
+        let mut losses = Losses::new(
+            parameters,
+            Substances::of(Shared::new(plain(1.0, 1.0, None)), METAL),
+        );
         for _ in 0..steps {
             losses.advance(&mut state, 1e-3 / f64::from(steps)).unwrap();
         }

@@ -86,7 +86,7 @@ fn cosine_error(n: usize) -> f64 {
     let caloric = Arc::new(plain(3.0, 0.5, None));
     let mut state = lattice(metal, size, &caloric, |x| 10.0 + (PI * x[0]).cos());
     let given = parameters(metal, size, vec![]);
-    let mut stage = Conduction::new(&given, caloric, metal).unwrap();
+    let mut stage = Conduction::new(&given, Substances::of(caloric, metal), metal).unwrap();
     let steps = 8 * n * n / 10;
     let end = 0.05 / 3.0;
     march(&mut state, &mut stage, end / steps as f64, steps);
@@ -130,7 +130,8 @@ fn energy_is_kept_to_round_off_in_a_moving_melt() {
     state.flowing = true;
     let before = stored(&state);
     let given = parameters(metal, [9, 9, 9], vec![]);
-    let mut conduction = Conduction::new(&given, Arc::clone(&caloric), metal).unwrap();
+    let mut conduction =
+        Conduction::new(&given, Substances::of(Arc::clone(&caloric), metal), metal).unwrap();
     let mut phase = Phase::new(caloric, None);
     for step in 0..200 {
         march(&mut state, &mut phase, 1e-4, 1);
@@ -177,7 +178,8 @@ fn the_parts_that_have_molten_tell_the_front_to_a_part_of_a_particle() {
     let wall = caloric.enthalpy(10.0 + rise);
     let mut state = lattice(metal, [length, 3, 3], &caloric, |_| 10.0);
     let given = parameters(metal, [length, 3, 3], vec![]);
-    let mut conduction = Conduction::new(&given, Arc::clone(&caloric), metal).unwrap();
+    let mut conduction =
+        Conduction::new(&given, Substances::of(Arc::clone(&caloric), metal), metal).unwrap();
     let mut phase = Phase::new(Arc::clone(&caloric), None);
     let held: Vec<usize> = (0..state.len())
         .filter(|a| state.metal.column(&POSITION)[*a][0] < metal.spacing)
@@ -228,7 +230,7 @@ fn heat_does_not_leave_the_range_of_temperatures() {
         if x[0] < 2e-3 { 400.0 } else { 1500.0 }
     });
     let given = parameters(metal, [8, 8, 8], vec![]);
-    let mut stage = Conduction::new(&given, caloric, metal).unwrap();
+    let mut stage = Conduction::new(&given, Substances::of(caloric, metal), metal).unwrap();
     // Ten times the limit: divided within the stage.
     let dt = 10.0 * stage.limit();
     march(&mut state, &mut stage, dt, 20);
@@ -257,12 +259,14 @@ fn spot(tolerance: f64, forget: bool) -> (State, f64) {
     let mut state = lattice(metal, size, &caloric, hot);
     let mut given = parameters(metal, size, vec![]);
     given.exchange_tolerance_k = tolerance;
-    let mut stage = Conduction::new(&given, Arc::clone(&caloric), metal).unwrap();
+    let mut stage =
+        Conduction::new(&given, Substances::of(Arc::clone(&caloric), metal), metal).unwrap();
     let mut visited = 0.0;
     for _ in 0..60 {
         if forget {
             let saved = stage.save();
-            stage = Conduction::new(&given, Arc::clone(&caloric), metal).unwrap();
+            stage = Conduction::new(&given, Substances::of(Arc::clone(&caloric), metal), metal)
+                .unwrap();
             stage.restore(&saved);
         }
         march(&mut state, &mut stage, 1e-3, 1);
@@ -293,7 +297,7 @@ fn an_open_face_lets_a_steady_gradient_through() {
     let slope = |x: [f64; 3]| 100.0 - 10.0 * x[0];
     let mut state = lattice(metal, size, &caloric, slope);
     let given = parameters(metal, size, vec![Face::XHigh]);
-    let mut stage = Conduction::new(&given, caloric.clone(), metal).unwrap();
+    let mut stage = Conduction::new(&given, Substances::of(caloric.clone(), metal), metal).unwrap();
     for a in (0..state.len()).filter(|a| a % size[0] < 2) {
         stage.hold(
             a..a + 1,
@@ -315,7 +319,7 @@ fn an_open_face_lets_a_steady_gradient_through() {
     // The other way round the plate beyond would have to be a source: nothing comes in.
     let mut state = lattice(metal, size, &caloric, |x| 100.0 + 10.0 * x[0]);
     let before = stored(&state);
-    let mut stage = Conduction::new(&given, caloric, metal).unwrap();
+    let mut stage = Conduction::new(&given, Substances::of(caloric, metal), metal).unwrap();
     march(&mut state, &mut stage, 1e-4, 100);
     assert!(stored(&state) <= before * (1.0 + 1e-14));
 }
@@ -330,7 +334,7 @@ fn an_open_face_never_falls_below_the_surroundings() {
     let before = stored(&state);
     let mut given = parameters(metal, size, vec![Face::XHigh]);
     given.faces.as_mut().unwrap().surroundings_k = 300.0;
-    let mut stage = Conduction::new(&given, caloric, metal).unwrap();
+    let mut stage = Conduction::new(&given, Substances::of(caloric, metal), metal).unwrap();
     for _ in 0..4000 {
         march(&mut state, &mut stage, 2e-3, 1);
         let coldest = state
@@ -392,7 +396,8 @@ fn stefan_error(n: usize) -> f64 {
         });
     }
     let plate = n * 9;
-    let mut stage = Conduction::new(&given, Arc::clone(&caloric), metal).unwrap();
+    let mut stage =
+        Conduction::new(&given, Substances::of(Arc::clone(&caloric), metal), metal).unwrap();
     stage.hold(plate..plate + 18, Curve::Constant(6.0));
     let end = 0.25;
     let steps = (end / stage.limit()).ceil() as usize;

@@ -9,22 +9,21 @@
 //! is seen of it. A step in which a torch would move by
 //! more than a part of its least half axis is divided.
 
-use std::sync::Arc as Shared;
-
 use particles::{Matter, POSITION};
 use run::Fault;
 use steps::Figure;
 use torch::{Beyond, Stand, Torch};
 
 use super::bounds::outside;
-use super::caloric::Caloric;
 use super::chunks::Chunks;
 use super::ledger::Sum;
 use super::received::{self, FROM_TORCHES};
 use super::shade::Shade;
 use super::skin::Skin;
+use super::substances::{Substance, Substances};
 use crate::patch;
 use crate::stage::{Stage, StageError};
+use crate::state::slag::SLAG;
 use crate::state::{ENTHALPY, State, TEMPERATURE};
 
 /// Part of the least half axis by which a torch moves between two looks.
@@ -77,7 +76,7 @@ impl Lit {
 
 /// Torches as a stage.
 pub struct Torches {
-    caloric: Shared<Caloric>,
+    made: Substances,
     metal: Matter,
     torches: Vec<Lit>,
     /// All particles, of which a torch in the volume may heat any.
@@ -93,11 +92,7 @@ impl Torches {
     ///
     /// # Errors
     /// A fault at the key of a torch that is wrong.
-    pub fn new(
-        torches: &[Torch],
-        caloric: Shared<Caloric>,
-        metal: Matter,
-    ) -> Result<Self, Vec<Fault>> {
+    pub fn new(torches: &[Torch], made: Substances, metal: Matter) -> Result<Self, Vec<Fault>> {
         let misfits = torches.iter().enumerate().flat_map(|(number, torch)| {
             let at =
                 move |m: torch::Misfit| Fault::at(&format!("/torches/{number}{}", m.path), m.what);
@@ -115,7 +110,7 @@ impl Torches {
             most: 0.0,
         };
         Ok(Self {
-            caloric,
+            made,
             metal,
             torches: torches.iter().map(lit).collect(),
             all: Vec::new(),
@@ -164,16 +159,17 @@ impl Torches {
 
     /// Gives an energy \[J\] to the particles that were weighed, a part of it for each unit of weight.
     fn give(&self, state: &mut State, energy: f64) -> Result<(), StageError> {
-        let columns = (&POSITION, &ENTHALPY, &TEMPERATURE, &FROM_TORCHES);
-        let (places, enthalpies, temperatures, told) = state.metal.columns_mut(columns);
+        let columns = (&POSITION, &ENTHALPY, &TEMPERATURE, &FROM_TORCHES, &SLAG);
+        let (places, enthalpies, temperatures, told, slag) = state.metal.columns_mut(columns);
         for (a, weight) in &self.own {
             let a = *a as usize;
-            enthalpies[a] += energy * weight / self.metal.mass();
+            let Substance { caloric, mass } = self.made.at(slag, a);
+            enthalpies[a] += energy * weight / mass;
             received::add(told, a, energy * weight);
-            let kelvin = self.caloric.temperature(enthalpies[a]);
+            let kelvin = caloric.temperature(enthalpies[a]);
             temperatures[a] = kelvin;
-            if !self.caloric.covers(kelvin) {
-                return Err(outside(state.step, a, places[a], kelvin, &self.caloric));
+            if !caloric.covers(kelvin) {
+                return Err(outside(state.step, a, places[a], kelvin, caloric));
             }
         }
         Ok(())

@@ -85,10 +85,10 @@ impl Motion {
         }
     }
 
-    /// The same with slag beside the metal.
+    /// The same with slag of a viscosity by `law` beside the metal.
     #[must_use]
-    pub fn beside(mut self, slag: Slag) -> Self {
-        self.viscosity = self.viscosity.beside(slag);
+    pub fn beside(mut self, slag: Slag, law: Law) -> Self {
+        self.viscosity = self.viscosity.beside(slag, law);
         self
     }
 

@@ -30,6 +30,19 @@ impl Law {
     /// # Errors
     /// A fault at the key: a viscosity below zero, a formula without a value, a temperature where there is none.
     pub fn of(property: &Property, at: &str, caloric: Option<&Caloric>) -> Result<Self, Fault> {
+        // Of the solid none is asked for.
+        let span = caloric.map(|caloric| {
+            let (from, to) = caloric.range();
+            (caloric.melting_point().unwrap_or(from), to)
+        });
+        Self::over(property, at, span)
+    }
+
+    /// The law of a `property` at the key `at`, for what flows between two temperatures \[K\].
+    ///
+    /// # Errors
+    /// Those of [`Law::of`].
+    pub fn over(property: &Property, at: &str, span: Option<(f64, f64)>) -> Result<Self, Fault> {
         let refuse = |at: &str, value: f64, where_: &str| {
             let what = format!("{value} Pa s{where_} is out of range: at least 0 Pa s");
             Fault::at(at, what)
@@ -41,13 +54,11 @@ impl Law {
                 Err(refuse(at, value, ""))
             };
         }
-        let Some(caloric) = caloric else {
+        let Some((first, last)) = span else {
             let what = "depends on the temperature, which means nothing without the key 'heat'";
             return Err(Fault::at(at, what));
         };
-        // Of the solid none is asked for.
-        let first = caloric.melting_point().unwrap_or(caloric.range().0);
-        let span = (first, caloric.range().1.min(HOTTEST).max(first + 1.0));
+        let span = (first, last.min(HOTTEST).max(first + 1.0));
         let (all, range) = table(property, at, span)?;
         let inner = all.nodes().iter().filter(|t| **t > span.0 && **t < span.1);
         let nodes: Vec<f64> = [span.0]

@@ -50,8 +50,8 @@ use crate::sweep::GRAIN;
 pub struct Viscosity {
     law: Law,
     metal: Matter,
-    /// mu of slag beside the metal \[Pa s\].
-    slag: Option<f64>,
+    /// That of slag beside the metal.
+    slag: Option<Law>,
     /// 2 D / (rho lambda N) \[m3/s per Pa s\].
     scale: f64,
     /// Largest explicit step \[s\], and that times mu/rho \[m2\].
@@ -110,18 +110,18 @@ impl Viscosity {
         }
     }
 
-    /// The same with slag beside the metal.
+    /// The same with slag of a viscosity by `law` beside the metal.
     #[must_use]
-    pub fn beside(mut self, slag: Slag) -> Self {
+    pub fn beside(mut self, slag: Slag, law: Law) -> Self {
         self.limit = self.spread / slag.spreading(self.law.largest(), self.metal);
-        self.slag = Some(slag.viscosity);
+        self.slag = Some(law);
         self
     }
 
     /// True if there is any.
     #[must_use]
     pub fn acts(&self) -> bool {
-        self.law.largest() > 0.0 || self.slag.is_some_and(|mu| mu > 0.0)
+        self.law.largest() > 0.0 || self.slag.as_ref().is_some_and(|law| law.largest() > 0.0)
     }
 
     /// True if one viscosity holds for all liquid.
@@ -138,25 +138,27 @@ impl Viscosity {
         if self.uniform() {
             return Ok(());
         }
-        let law = &self.law;
-        if let Law::OfTemperature { .. } = law {
-            for (&id, role) in near.id.iter().zip(&near.role) {
+        let law = |a: usize| match (&self.slag, &near.liquids) {
+            (Some(slag), Some(liquids)) if liquids.is_slag(a) => slag,
+            _ => &self.law,
+        };
+        if self.varies() {
+            for (a, (&id, role)) in near.id.iter().zip(&near.role).enumerate() {
                 if *role == Role::Liquid {
-                    law.covers(temperature[id as usize])?;
+                    law(a).covers(temperature[id as usize])?;
                 }
             }
         }
-        let ids = near.id.par_iter().with_min_len(GRAIN);
-        ids.map(|&id| law.at(temperature, id as usize))
+        let ids = near.id.par_iter().with_min_len(GRAIN).enumerate();
+        ids.map(|(a, &id)| law(a).at(temperature, id as usize))
             .collect_into_vec(&mut self.each);
-        if let (Some(mu), Some(liquids)) = (self.slag, &near.liquids) {
-            for (a, each) in self.each.iter_mut().enumerate() {
-                if liquids.is_slag(a) {
-                    *each = mu;
-                }
-            }
-        }
         Ok(())
+    }
+
+    /// Whether some viscosity depends on temperature.
+    fn varies(&self) -> bool {
+        let mut laws = std::iter::once(&self.law).chain(&self.slag);
+        laws.any(|law| matches!(law, Law::OfTemperature { .. }))
     }
 
     /// mu of particle `a` \[Pa s\].

@@ -3,7 +3,30 @@
 use run::Fault;
 
 use super::{Material, Scene, StartState};
-use crate::motion::Method;
+use crate::heat::Substances;
+use crate::motion::{self, Method, OnColdMetal};
+
+impl Scene {
+    /// What has a temperature; none where nothing has.
+    ///
+    /// # Errors
+    /// A fault at the key that is wrong.
+    pub fn substances(&self) -> Result<Option<Substances>, Fault> {
+        let Some(heat) = &self.heat else {
+            return Ok(None);
+        };
+        let caloric = heat.caloric().map_err(|fault| fault.within("/heat"))?;
+        let (metal, made) = (self.metal(), Substances::of(caloric, self.metal()));
+        let Some(slag) = &self.slag else {
+            return Ok(Some(made));
+        };
+        let mass = slag.density_kg_m3 * metal.volume();
+        Ok(Some(match slag.caloric()? {
+            Some(own) => made.beside(own, mass),
+            None => made,
+        }))
+    }
+}
 
 /// Greatest ratio of densities between both liquids: beyond it the lighter one is as good as nothing.
 const RATIO_MOST: f64 = 100.0;
@@ -48,8 +71,25 @@ pub(super) fn faults(scene: &Scene) -> Vec<Fault> {
         }
         Some(_) => {}
     }
+    faults.extend(warm(scene, slag));
+    faults.extend(slag.slag().err());
     faults.extend(beside(scene));
     faults
+}
+
+/// Heat that one of both liquids lacks.
+fn warm(scene: &Scene, slag: &motion::slag::Parameters) -> Option<Fault> {
+    match (&scene.heat, &slag.heat) {
+        (Some(_), None) => {
+            let what = "has no heat beside that of the metal: name its conductivity and specific heat here";
+            Some(Fault::at("/slag/heat", what).or_at("/slag"))
+        }
+        (None, Some(_)) => {
+            let what = "means nothing without the key 'heat' of the metal";
+            Some(Fault::at("/slag/heat", what))
+        }
+        _ => None,
+    }
 }
 
 /// What knows of one liquid only.
@@ -57,7 +97,32 @@ fn beside(scene: &Scene) -> Vec<Fault> {
     let tense = (scene.slag.as_ref()).is_some_and(|slag| slag.interface_tension_n_m > 0.0);
     let angles = (scene.faces.as_ref()).is_some_and(|faces| !faces.contact_angles.is_empty());
     let idle = [
-        ("heat", scene.heat.is_some(), "slag has no temperature"),
+        ("arc", scene.arc.is_some(), "slag is no part of its circuit"),
+        (
+            "marangoni",
+            scene.marangoni.is_some(),
+            "slag has no slope of its tension",
+        ),
+        (
+            "buoyancy",
+            scene.buoyancy.is_some(),
+            "it knows the expansion of the metal only",
+        ),
+        (
+            "losses/evaporation",
+            scene
+                .losses
+                .is_some_and(|losses| losses.evaporation.is_some()),
+            "it is that of the metal",
+        ),
+        (
+            "flow/on_cold_metal",
+            scene
+                .flow
+                .as_ref()
+                .is_some_and(|flow| flow.on_cold_metal == OnColdMetal::Sticks),
+            "slag does not freeze to metal",
+        ),
         ("grains", scene.grains.is_some(), "slag meets no grains"),
         ("start", scene.start.is_some(), "no slag is read from it"),
         (

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::Conduction;
 use super::exchanged::Exchanged;
-use crate::faces::Turn;
+use crate::heat::substances::{Substance, Substances};
 use crate::near::{Near, Role};
 use crate::stage::StageError;
 use crate::state::{ENTHALPY, State, TEMPERATURE};
@@ -18,15 +18,13 @@ impl Conduction {
         state: &mut State,
         dt: f64,
     ) -> Result<(), StageError> {
+        if let Some(walls) = &mut self.walls {
+            walls.take(state)?;
+        }
         let near = &state.near;
         let enthalpies = state.metal.column(&ENTHALPY);
+        let marks = Substances::marks(&state.metal);
         let temperatures = state.metal.column(&TEMPERATURE);
-        self.beside.clear();
-        if self.walls {
-            let (faces, time, beside) = (&state.faces, state.time, &mut self.beside);
-            let found = near.temperatures(faces, time, temperatures, beside);
-            found.map_err(|fault| StageError::Data(format!("temperature of a wall: {fault}")))?;
-        }
         let mut exchanged = std::mem::take(&mut self.exchanged);
         (0..near.len())
             .into_par_iter()
@@ -37,25 +35,21 @@ impl Conduction {
                     Role::Backing => {
                         Exchanged::unchanged(near.id[k], enthalpies[id], temperatures[id])
                     }
-                    _ => self.in_flow(near, k, enthalpies[id], dt),
+                    _ => self.in_flow(near, k, (enthalpies[id], self.made.at(marks, id)), dt),
                 }
             })
             .collect_into_vec(&mut exchanged);
-        if !self.beside.is_empty() {
-            // What walls give and what they take are told apart: between a hot and a cold wall their sum says nothing.
-            for one in &exchanged {
-                match one.out < 0.0 {
-                    true => self.in_walls.add(-one.out),
-                    false => self.out_walls.add(one.out),
-                }
-            }
+        if let Some(walls) = &mut self.walls {
+            walls.count(&exchanged);
+            walls.look(state, &self.rest);
         }
         let stored = self.store(state, &exchanged);
         self.exchanged = exchanged;
         stored
     }
 
-    fn in_flow(&self, near: &Near, k: usize, enthalpy: f64, dt: f64) -> Exchanged {
+    fn in_flow(&self, near: &Near, k: usize, own: (f64, &Substance), dt: f64) -> Exchanged {
+        let (enthalpy, own) = own;
         let (chunk, pairs) = (&near.lists.chunks()[k / ROWS], &near.pairs[k / ROWS]);
         let row = chunk.row(k % ROWS).iter();
         let weights = &pairs.value[chunk.range(k % ROWS)];
@@ -71,39 +65,22 @@ impl Conduction {
             }
         }
         let mut out = 0.0;
-        if !self.beside.is_empty() {
+        if let Some(walls) = &self.walls {
             // An image at its own temperature is counted above; what the wall adds to that is given here.
-            let (entering, more) = self.through_walls(near, k);
+            let pairs = chunk.row(k % ROWS).iter().zip(weights);
+            let pairs = pairs.map(|(&j, weight)| (j as usize, *weight));
+            let (entering, more) = walls.through(near, k, pairs, &self.thermal);
             gain += more;
             out = -self.scale * dt * entering;
         }
-        let enthalpy = enthalpy + self.scale * dt * gain / self.metal.mass();
+        let enthalpy = enthalpy + self.scale * dt * gain / own.mass;
         Exchanged {
             a: a as u32,
             enthalpy,
-            temperature: self.caloric.temperature(enthalpy),
+            temperature: own.caloric.temperature(enthalpy),
             out,
             busy: true,
             wakes: false,
         }
-    }
-
-    /// What walls of held temperature give to the `k`-th particle of the copy, and how much more that is than what their
-    /// images would give at the temperatures of their originals.
-    fn through_walls(&self, near: &Near, k: usize) -> (f64, f64) {
-        let (chunk, pairs) = (&near.lists.chunks()[k / ROWS], &near.pairs[k / ROWS]);
-        let weights = &pairs.value[chunk.range(k % ROWS)];
-        let [temperature, resistivity] = self.thermal[near.id[k] as usize];
-        let (mut entering, mut more) = (0.0, 0.0);
-        for (&j, weight) in chunk.row(k % ROWS).iter().zip(weights) {
-            let j = j as usize;
-            if near.images().turn(j).is_some_and(Turn::is_held) {
-                let [other, resists] = self.thermal[near.id[j] as usize];
-                let weight = weight * 2.0 / (resistivity + resists);
-                entering += weight * (self.beside[j] - temperature);
-                more += weight * (self.beside[j] - other);
-            }
-        }
-        (entering, more)
     }
 }

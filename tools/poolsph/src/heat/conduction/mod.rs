@@ -25,9 +25,9 @@
 
 mod exchanged;
 mod flowing;
+mod walls;
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use neighbours::ROWS;
 use particles::{Matter, POSITION};
@@ -37,22 +37,28 @@ use run::property::Curve;
 use steps::{Figure, Limit};
 
 use self::exchanged::Exchanged;
+use self::walls::Walls;
 use crate::heat::bounds::{moments, outside};
-use crate::heat::caloric::Caloric;
 use crate::heat::held::Held;
 use crate::heat::ledger::Sum;
 use crate::heat::open::Open;
 use crate::heat::parameters::Parameters;
+use crate::heat::substances::Substances;
 use crate::rest::{Plane, Rest};
 use crate::stage::{Stage, StageError};
 use crate::state::{ENTHALPY, State, TEMPERATURE, WALL, marked};
 
-/// Crowding of a liquid over the lattice that the step limit allows for.
-const CROWDING: f64 = 1.1;
+/// What an exchange of particles at rest reads of them.
+#[derive(Clone, Copy)]
+struct Columns<'a> {
+    places: &'a [[f64; 3]],
+    enthalpies: &'a [f64],
+    marks: &'a [bool],
+}
 
 /// Heat conduction as a stage.
 pub struct Conduction {
-    caloric: Arc<Caloric>,
+    made: Substances,
     metal: Matter,
     /// 6 V / sum r^2 W of the lattice \[m3 m/m2\].
     scale: f64,
@@ -64,8 +70,6 @@ pub struct Conduction {
     held: Vec<Held>,
     /// T \[K\] and 1/k \[m K/W\], the latter infinite for insulating walls.
     thermal: Vec<[f64; 2]>,
-    /// T of the particles of the copy and their images, where walls hold it \[K\].
-    beside: Vec<f64>,
     awake: Vec<bool>,
     visited: Vec<u32>,
     exchanged: Vec<Exchanged>,
@@ -75,11 +79,8 @@ pub struct Conduction {
     flowing: u64,
     out_open: Sum,
     out_held: Sum,
-    out_walls: Sum,
-    /// Heat that walls of held temperature gave.
-    in_walls: Sum,
-    /// Faces of the flow hold a temperature.
-    walls: bool,
+    /// Faces of the flow that hold a temperature.
+    walls: Option<Walls>,
 }
 
 impl Conduction {
@@ -87,11 +88,7 @@ impl Conduction {
     ///
     /// # Errors
     /// A fault at the key that is wrong.
-    pub fn new(
-        parameters: &Parameters,
-        caloric: Arc<Caloric>,
-        metal: Matter,
-    ) -> Result<Self, Fault> {
+    pub fn new(parameters: &Parameters, made: Substances, metal: Matter) -> Result<Self, Fault> {
         let (mirrors, open) = parameters.planes();
         let both = |plane: &&Plane| mirrors.contains(plane);
         if open.iter().find(both).is_some() {
@@ -100,17 +97,15 @@ impl Conduction {
                 "a face is named both under mirror and under open",
             ));
         }
-        let (second, zeroth) = moments(metal);
         Ok(Self {
-            scale: 6.0 * metal.volume() / second,
-            limit: metal.density * second / (6.0 * CROWDING * caloric.fastest() * zeroth),
+            scale: 6.0 * metal.volume() / moments(metal).0,
+            limit: made.limit(metal),
             interval: u64::from(parameters.rest_interval_steps.max(1)),
             tolerance: parameters.exchange_tolerance_k,
             rest: Rest::new(metal, mirrors, &open),
             open: Open::new(open, metal.spacing, parameters),
             held: Vec::new(),
             thermal: Vec::new(),
-            beside: Vec::new(),
             awake: Vec::new(),
             visited: Vec::new(),
             exchanged: Vec::new(),
@@ -119,10 +114,8 @@ impl Conduction {
             flowing: 1,
             out_open: Sum::default(),
             out_held: Sum::default(),
-            out_walls: Sum::default(),
-            in_walls: Sum::default(),
-            walls: false,
-            caloric,
+            walls: None,
+            made,
             metal,
         })
     }
@@ -144,8 +137,9 @@ impl Conduction {
 
     /// Takes account of walls in the planes of faces, which hold a temperature.
     #[must_use]
-    pub fn beside_walls(self, walls: bool) -> Self {
-        Self { walls, ..self }
+    pub fn beside_walls(mut self, walls: bool) -> Self {
+        self.walls = walls.then(Walls::default);
+        self
     }
 
     /// The largest step of the explicit scheme \[s\].
@@ -166,19 +160,21 @@ impl Conduction {
             self.awake[a as usize] = true;
         }
         let (temperatures, wall) = (state.metal.column(&TEMPERATURE), state.metal.column(&WALL));
+        let marks = Substances::marks(&state.metal);
         for (a, (&now, seen)) in temperatures.iter().zip(&mut self.thermal).enumerate() {
             // NaN, a particle not seen before, differs as well.
             if seen[0].to_bits() != now.to_bits() {
                 seen[0] = now;
                 self.awake[a] = true;
                 if !marked(wall, a) {
-                    seen[1] = 1.0 / self.caloric.conductivity(now);
+                    seen[1] = 1.0 / self.made.at(marks, a).caloric.conductivity(now);
                 }
             }
         }
         for held in &self.held {
             for a in held.particles.clone() {
-                self.thermal[a][1] = 1.0 / self.caloric.conductivity(temperatures[a]);
+                let own = &self.made.at(marks, a).caloric;
+                self.thermal[a][1] = 1.0 / own.conductivity(temperatures[a]);
             }
         }
     }
@@ -190,14 +186,18 @@ impl Conduction {
             (self.awake.iter().enumerate()).filter(|(a, awake)| **awake && self.rest.holds(*a));
         self.visited.extend(awake.map(|(a, _)| a as u32));
         let mut exchanged = std::mem::take(&mut self.exchanged);
-        let (places, enthalpies) = (state.metal.column(&POSITION), state.metal.column(&ENTHALPY));
+        let metal = Columns {
+            places: state.metal.column(&POSITION),
+            enthalpies: state.metal.column(&ENTHALPY),
+            marks: Substances::marks(&state.metal),
+        };
         let visited = self.visited.par_iter().with_min_len(ROWS);
         visited
-            .map(|&a| self.at_rest(places, enthalpies, a as usize, dt))
+            .map(|&a| self.at_rest(metal, a as usize, dt))
             .collect_into_vec(&mut exchanged);
         let sleepers = self.sleepers(&exchanged);
         let asleep = sleepers.iter();
-        exchanged.extend(asleep.map(|&a| self.at_rest(places, enthalpies, a as usize, dt)));
+        exchanged.extend(asleep.map(|&a| self.at_rest(metal, a as usize, dt)));
         self.visited.extend(sleepers);
         for one in &exchanged {
             self.awake[one.a as usize] = one.busy;
@@ -225,7 +225,7 @@ impl Conduction {
         sleepers
     }
 
-    fn at_rest(&self, places: &[[f64; 3]], enthalpies: &[f64], a: usize, dt: f64) -> Exchanged {
+    fn at_rest(&self, metal: Columns<'_>, a: usize, dt: f64) -> Exchanged {
         let [temperature, resistivity] = self.thermal[a];
         let (mut gain, mut busy, mut wakes) = (0.0, false, false);
         for link in self.rest.row(a) {
@@ -238,17 +238,19 @@ impl Conduction {
                 gain += link.weight * 2.0 / (resistivity + resists) * difference;
             }
         }
+        let own = self.made.at(metal.marks, a);
         let lost = if busy {
             let row = self.rest.row(a);
-            self.open.lost(places, &self.thermal, row, a, &self.caloric)
+            self.open
+                .lost(metal.places, &self.thermal, row, a, &own.caloric)
         } else {
             0.0
         };
-        let enthalpy = enthalpies[a] + self.scale * dt * (gain - lost) / self.metal.mass();
+        let enthalpy = metal.enthalpies[a] + self.scale * dt * (gain - lost) / own.mass;
         Exchanged {
             a: a as u32,
             enthalpy,
-            temperature: self.caloric.temperature(enthalpy),
+            temperature: own.caloric.temperature(enthalpy),
             out: self.scale * dt * lost,
             busy,
             wakes,
@@ -256,17 +258,13 @@ impl Conduction {
     }
 
     fn store(&self, state: &mut State, exchanged: &[Exchanged]) -> Result<(), StageError> {
-        let beyond = |one: &&Exchanged| !self.caloric.covers(one.temperature);
+        let marks = Substances::marks(&state.metal);
+        let own = |one: &Exchanged| &self.made.at(marks, one.a as usize).caloric;
+        let beyond = |one: &&Exchanged| !own(one).covers(one.temperature);
         if let Some(one) = exchanged.iter().find(beyond) {
             let a = one.a as usize;
             let place = state.metal.column(&POSITION)[a];
-            return Err(outside(
-                state.step,
-                a,
-                place,
-                one.temperature,
-                &self.caloric,
-            ));
+            return Err(outside(state.step, a, place, one.temperature, own(one)));
         }
         let (enthalpies, temperatures) = state.metal.columns_mut((&ENTHALPY, &TEMPERATURE));
         for one in exchanged {
@@ -302,7 +300,7 @@ impl Stage for Conduction {
 
     fn advance(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
         for held in &self.held {
-            held.prescribe(state, &self.caloric, &mut self.out_held)?;
+            held.prescribe(state, &self.made, &mut self.out_held)?;
         }
         // Those at rest wait for a multiple of their interval; a long step may hold several.
         let turns = |step: u64| step.div_ceil(self.interval);
@@ -346,22 +344,23 @@ impl Stage for Conduction {
         if !self.held.is_empty() {
             figures.push(figure("energy_out_held_j", "J", self.out_held.value()));
         }
-        if self.walls {
-            figures.push(figure("energy_in_walls_j", "J", self.in_walls.value()));
-            figures.push(figure("energy_out_walls_j", "J", self.out_walls.value()));
-        }
+        figures.extend(self.walls.iter().flat_map(Walls::figures));
         figures
     }
 
+    fn warnings(&self) -> Vec<String> {
+        self.walls.iter().filter_map(Walls::warning).collect()
+    }
+
     fn bytes(&self) -> usize {
-        self.rest.bytes() + 21 * self.thermal.len() + 8 * self.beside.capacity()
+        let walls = self.walls.as_ref().map_or(0, Walls::bytes);
+        self.rest.bytes() + 21 * self.thermal.len() + walls
     }
 
     fn save(&self) -> Vec<f64> {
         let mut saved = Vec::from(self.out_open.save());
         saved.extend(self.out_held.save());
-        saved.extend(self.out_walls.save());
-        saved.extend(self.in_walls.save());
+        saved.extend(self.walls.iter().flat_map(Walls::save));
         saved.extend(self.rest.save());
         saved
     }
@@ -369,8 +368,11 @@ impl Stage for Conduction {
     fn restore(&mut self, saved: &[f64]) {
         self.out_open = Sum::restored(saved);
         self.out_held = Sum::restored(&saved[2.min(saved.len())..]);
-        self.out_walls = Sum::restored(&saved[4.min(saved.len())..]);
-        self.in_walls = Sum::restored(&saved[6.min(saved.len())..]);
-        self.saved = Some(saved[8.min(saved.len())..].to_vec());
+        let saved = &saved[4.min(saved.len())..];
+        let rest = match &mut self.walls {
+            Some(walls) => walls.restore(saved),
+            None => saved,
+        };
+        self.saved = Some(rest.to_vec());
     }
 }

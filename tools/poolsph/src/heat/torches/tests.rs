@@ -1,6 +1,9 @@
 //! Power of torches, and a point source against its exact solution.
 
+use std::sync::Arc as Shared;
+
 use super::*;
+use crate::heat::Caloric;
 use crate::heat::caloric::tests::plain;
 use crate::state::{ENTHALPY, Particle, phase};
 use crate::surface::Surface;
@@ -56,7 +59,12 @@ fn heated(torch: Torch, spacing: f64, times: &[f64]) -> (f64, Torches) {
     let caloric = Shared::new(plain(30.0, 500.0, None));
     let mut state = block(spacing, &caloric);
     let before: f64 = state.metal.column(&ENTHALPY).iter().sum();
-    let mut stage = Torches::new(&[torch], caloric, state.metal.matter).unwrap();
+    let mut stage = Torches::new(
+        &[torch],
+        Substances::of(caloric, state.metal.matter),
+        state.metal.matter,
+    )
+    .unwrap();
     for time in times {
         state.time = *time;
         stage.advance(&mut state, 0.01).unwrap();
@@ -134,7 +142,12 @@ fn leaning(bodies: &[([f64; 3], [f64; 3])], below: f64) -> (f64, f64, Torches) {
     let leans = torch(DISC, r#", "points_to": [1, 0, -1]"#);
     let caloric = Shared::new(plain(30.0, 500.0, None));
     let mut state = plates(0.001, &caloric, bodies);
-    let mut stage = Torches::new(&[leans], caloric.clone(), state.metal.matter).unwrap();
+    let mut stage = Torches::new(
+        &[leans],
+        Substances::of(caloric.clone(), state.metal.matter),
+        state.metal.matter,
+    )
+    .unwrap();
     stage.advance(&mut state, 0.01).unwrap();
     let gained = state.metal.column(&ENTHALPY).iter();
     let gained = gained.map(|h| (h - caloric.enthalpy(300.0)) * state.metal.matter.mass());
@@ -170,7 +183,12 @@ fn half_a_plate_beside_its_mirror_takes_half_of_a_torch_upon_it() {
         let mut half = plates(0.001, &caloric, &[([0.01, 0.0, 0.0], [0.01, 0.02, 0.01])]);
         half.faces = faces.faces(0.002, true).unwrap();
         let torch = torch(DEEP, more);
-        let mut stage = Torches::new(&[torch], caloric.clone(), half.metal.matter).unwrap();
+        let mut stage = Torches::new(
+            &[torch],
+            Substances::of(caloric.clone(), half.metal.matter),
+            half.metal.matter,
+        )
+        .unwrap();
         stage.advance(&mut half, 0.01).unwrap();
         let [power, inside, put, lost] = [0, 1, 2, 3].map(|k| stage.figures()[k].value);
         assert!((put + lost - 3.0).abs() < 1e-9, "{put} {lost}");
@@ -196,7 +214,12 @@ fn a_torch_that_weaves_across_a_mirror_gives_half() {
     let mut weaves = torch(DISC, "");
     let weave = r#"{"amplitude_m": 0.001, "frequency_hz": 50}"#;
     weaves.path.weave = serde_json::from_str(weave).unwrap();
-    let mut stage = Torches::new(&[weaves], caloric, half.metal.matter).unwrap();
+    let mut stage = Torches::new(
+        &[weaves],
+        Substances::of(caloric, half.metal.matter),
+        half.metal.matter,
+    )
+    .unwrap();
     stage.advance(&mut half, 0.01).unwrap();
     assert!((stage.figures()[2].value - 3.0).abs() < 1e-9);
 }
@@ -226,7 +249,12 @@ fn particles_that_widen_a_torch_are_told() {
 fn a_resumed_stage_has_its_sums() {
     let (_, stage) = heated(torch(DISC, ""), 0.002, &[0.0]);
     let caloric = Shared::new(plain(30.0, 500.0, None));
-    let mut other = Torches::new(&[torch(DISC, "")], caloric, stage.metal).unwrap();
+    let mut other = Torches::new(
+        &[torch(DISC, "")],
+        Substances::of(caloric, stage.metal),
+        stage.metal,
+    )
+    .unwrap();
     other.restore(&stage.save());
     assert_eq!(other.save(), stage.save());
 }
