@@ -46,16 +46,16 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Vec<Fault>> {
     let (mut left_out, mut notes) = (Vec::new(), Vec::new());
     let mut last = Vec::new();
     if let Some(of) = &scene.water {
-        match water::water(scene, of, &mut state) {
+        match water::water(scene, of, &solids, &mut state) {
             Ok(flowing) => {
                 let (law, stage) = (flowing.law, flowing.stage);
-                let meet = |solid| water::meet(scene, of, law, solid, &mut state);
-                stages.splice(0..0, solids.iter().map(meet).collect::<Vec<_>>());
                 (last, notes) = (flowing.last, flowing.notes);
                 if of.method == Method::DivergenceFree {
                     // Its pressure answers what all others do.
                     last.insert(0, stage);
                 } else {
+                    let meet = |solid| water::meet(scene, of, law, solid, &mut state);
+                    stages.splice(0..0, solids.iter().map(meet).collect::<Vec<_>>());
                     stages.push(stage);
                 }
             }

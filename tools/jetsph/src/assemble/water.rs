@@ -20,7 +20,7 @@ use crate::matter::water::near::LISTED;
 use crate::matter::water::nozzle::{Feed, LED, Nozzle};
 use crate::matter::water::outlet::Outlet;
 use crate::matter::water::tait::{Tait, Tension};
-use crate::matter::water::{DivergenceFree, Flow, Liquid, Water};
+use crate::matter::water::{DivergenceFree, Flow, Liquid, Shore, Water};
 use crate::scene::{KernelScene, Method, NozzleScene, OutletScene, Scene, WaterScene};
 use crate::stage::{Stage, place_text};
 use crate::state::{ACCELERATION, DENSITY, MASS, State, VELOCITY};
@@ -45,7 +45,12 @@ pub(super) struct Flowing {
 }
 
 /// Puts the water of a scene into the state.
-pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result<Flowing, Fault> {
+pub(super) fn water(
+    scene: &Scene,
+    of: &WaterScene,
+    solids: &[Made],
+    state: &mut State,
+) -> Result<Flowing, Fault> {
     let dimensions = scene.dimensions;
     let place = state.sets.len();
     let mut set = empty_set(of);
@@ -84,8 +89,10 @@ pub(super) fn water(scene: &Scene, of: &WaterScene, state: &mut State) -> Result
             spacing: of.spacing_m,
             smoothing_length: h,
             walls,
+            pulls: of.tension == Tension::Full,
         };
-        soundless(liquid, kind)
+        let skins = solids.iter().map(|solid| skin(of, solid, state));
+        soundless(scene, liquid, kind, skins.collect())
     } else {
         let artificial = of.artificial_viscosity;
         let water = Water {
@@ -119,39 +126,44 @@ fn sounding(water: Water, kind: (usize, KernelScene)) -> Box<dyn Stage> {
 }
 
 /// The stage of water without sound.
-fn soundless(liquid: Liquid, kind: (usize, KernelScene)) -> Box<dyn Stage> {
+fn soundless(
+    scene: &Scene,
+    liquid: Liquid,
+    kind: (usize, KernelScene),
+    skins: Vec<Skin>,
+) -> Box<dyn Stage> {
     let h = liquid.smoothing_length;
     match kind {
-        (2, KernelScene::Spline) => Box::new(DivergenceFree::<2, _>::new(
-            liquid,
-            CubicSpline::<2>::new(h),
-        )),
-        (2, KernelScene::Wendland) => {
-            Box::new(DivergenceFree::<2, _>::new(liquid, Wendland::<2>::new(h)))
-        }
-        (_, KernelScene::Spline) => Box::new(DivergenceFree::<3, _>::new(
-            liquid,
-            CubicSpline::<3>::new(h),
-        )),
-        (_, KernelScene::Wendland) => {
-            Box::new(DivergenceFree::<3, _>::new(liquid, Wendland::<3>::new(h)))
-        }
+        (2, KernelScene::Spline) => free::<2, _>(scene, liquid, CubicSpline::<2>::new(h), skins),
+        (2, KernelScene::Wendland) => free::<2, _>(scene, liquid, Wendland::<2>::new(h), skins),
+        (_, KernelScene::Spline) => free::<3, _>(scene, liquid, CubicSpline::<3>::new(h), skins),
+        (_, KernelScene::Wendland) => free::<3, _>(scene, liquid, Wendland::<3>::new(h), skins),
     }
 }
 
-/// The stage of a solid and the water, which was put into the state last.
-pub(super) fn meet(
+/// The stage of water without sound with a kernel.
+fn free<const D: usize, K: Kernel + Clone + 'static>(
     scene: &Scene,
-    of: &WaterScene,
-    law: Tait,
-    solid: &Made,
-    state: &mut State,
+    liquid: Liquid,
+    kernel: K,
+    skins: Vec<Skin>,
 ) -> Box<dyn Stage> {
-    let walls: Vec<Body> = plain_walls(&scene.walls, scene.dimensions)
-        .into_iter()
-        .map(|(_, body)| body)
-        .collect();
-    let (water, dimensions) = (state.sets.len() - 1, state.dimensions);
+    let shore = |skin| Shore {
+        sight: Sight::new(liquid.set, skin, kernel.clone(), bodies(scene)),
+    };
+    let shores = skins.into_iter().map(shore).collect();
+    Box::new(DivergenceFree::<D, K>::new(liquid, kernel, shores))
+}
+
+/// Plain walls.
+fn bodies(scene: &Scene) -> Vec<Body> {
+    let walls = plain_walls(&scene.walls, scene.dimensions);
+    walls.into_iter().map(|(_, body)| body).collect()
+}
+
+/// A solid as the water sees it.
+fn skin(of: &WaterScene, solid: &Made, state: &mut State) -> Skin {
+    let dimensions = state.dimensions;
     let set = &mut state.sets[solid.set];
     [DEFORMATION, DEFORMATION_RATE, BEND_RATE, WARP_RATE]
         .iter()
@@ -162,7 +174,20 @@ pub(super) fn meet(
     } else {
         of.spacing_m
     };
-    let skin = Skin::new(solid.set, solid.size, solid.cells.clone(), part, dimensions);
+    Skin::new(solid.set, solid.size, solid.cells.clone(), part, dimensions)
+}
+
+/// The stage of a solid and the water, which was put into the state last.
+pub(super) fn meet(
+    scene: &Scene,
+    of: &WaterScene,
+    law: Tait,
+    solid: &Made,
+    state: &mut State,
+) -> Box<dyn Stage> {
+    let walls = bodies(scene);
+    let (water, dimensions) = (state.sets.len() - 1, state.dimensions);
+    let skin = skin(of, solid, state);
     let h = 0.5 * of.smoothing * (of.spacing_m + skin.spacing);
     let none = ArtificialViscosity {
         linear: 0.0,

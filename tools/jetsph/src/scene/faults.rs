@@ -92,7 +92,8 @@ impl Scene {
         }
         if let Some(water) = &self.water {
             if water.method == Method::DivergenceFree {
-                water.soundless_faults(!self.solids.is_empty(), faults);
+                let updated = self.solids.iter().any(|s| s.updated_form.is_some());
+                water.soundless_faults(updated, faults);
             }
             water.faults(self.dimensions, &mut vectors, &mut misfits, faults);
         }
@@ -170,7 +171,7 @@ impl super::WaterScene {
 
 impl super::WaterScene {
     /// Faults of water without sound.
-    fn soundless_faults(&self, meets_solids: bool, faults: &mut Vec<Fault>) {
+    fn soundless_faults(&self, meets_updated: bool, faults: &mut Vec<Fault>) {
         let with_pressure = self.bodies.iter().any(|body| body.pressure_pa.is_some());
         let told = [
             ("sound_speed_m_s", self.sound_speed_m_s.is_some()),
@@ -190,8 +191,8 @@ impl super::WaterScene {
             };
             faults.push(Fault::at(&format!("/water/{key}"), what));
         }
-        if meets_solids {
-            let what = "water without sound meets plain walls alone: beside 'solids' take \"weakly_compressible\"";
+        if meets_updated {
+            let what = "water without sound presses on faces, which the updated form lacks: leave 'updated_form' out, or take \"weakly_compressible\"";
             faults.push(Fault::at("/water/method", what));
         }
     }

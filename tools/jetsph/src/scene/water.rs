@@ -67,7 +67,7 @@ pub enum Method {
     /// By its pressure after an equation of state: it has sound, of a speed that the scene may tell.
     #[default]
     WeaklyCompressible,
-    /// By a pressure that leaves its velocity without divergence: it has no sound. Among plain walls, without solids.
+    /// By a pressure that leaves its velocity without divergence: it has no sound. Solids beside it yield to that pressure.
     DivergenceFree,
 }
 

@@ -16,7 +16,7 @@ use particles::{Column, Set};
 
 use crate::matter::solid::fracture::BROKEN;
 use crate::matter::solid::tensor::Matrix;
-use crate::state::VELOCITY;
+use crate::state::{ACCELERATION, VELOCITY};
 
 /// dF/dt \[1/s\].
 pub const DEFORMATION_RATE: Column<Matrix> = Column::new("deformation_rate", "1/s", [[0.0; 3]; 3]);
@@ -24,6 +24,16 @@ pub const DEFORMATION_RATE: Column<Matrix> = Column::new("deformation_rate", "1/
 pub const BEND_RATE: Column<Matrix> = Column::new("bend_rate", "1/(m s)", [[0.0; 3]; 3]);
 /// Rates of the derivatives d2x/dX dY, d2x/dX dZ, d2x/dY dZ, by columns \[1/(m s)\].
 pub const WARP_RATE: Column<Matrix> = Column::new("warp_rate", "1/(m s)", [[0.0; 3]; 3]);
+/// Whether water without sound presses on a cell: it wants to know how its faces are accelerated.
+pub const PRESSED: Column<u8> = Column::new("pressed", "1", 0).saved();
+/// How much the faces of a pressed cell give way to an impulse at once \[1/kg\].
+pub const GIVING: Column<f64> = Column::new("giving", "1/kg", 0.0);
+/// d2F/dt2 \[1/s2\] of pressed cells.
+pub const DEFORMATION_PUSH: Column<Matrix> = Column::new("deformation_push", "1/s2", [[0.0; 3]; 3]);
+/// Like [`BEND_RATE`], of accelerations \[1/(m s2)\].
+pub const BEND_PUSH: Column<Matrix> = Column::new("bend_push", "1/(m s2)", [[0.0; 3]; 3]);
+/// Like [`WARP_RATE`], of accelerations \[1/(m s2)\].
+pub const WARP_PUSH: Column<Matrix> = Column::new("warp_push", "1/(m s2)", [[0.0; 3]; 3]);
 /// Force of the water on a cell \[N\].
 pub const PULL: Column<[f64; 3]> = Column::new("water_force", "N", [0.0; 3]).shown();
 /// Moment of it: force by offset at rest \[N m\].
@@ -249,6 +259,18 @@ impl<'a> Moving<'a> {
             first: set.column(&DEFORMATION_RATE),
             bend: set.column(&BEND_RATE),
             warp: set.column(&WARP_RATE),
+            broken: set.column(&BROKEN),
+        }
+    }
+
+    /// Of a set, with accelerations in place of velocities; those of cells that are not pressed are even.
+    #[must_use]
+    pub fn pushed(set: &'a Set) -> Self {
+        Self {
+            velocity: set.column(&ACCELERATION),
+            first: set.column(&DEFORMATION_PUSH),
+            bend: set.column(&BEND_PUSH),
+            warp: set.column(&WARP_PUSH),
             broken: set.column(&BROKEN),
         }
     }

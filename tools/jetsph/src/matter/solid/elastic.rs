@@ -15,6 +15,7 @@ use super::nonlocal::Boxes;
 use super::plastic::History;
 use super::stiffness::stiffness;
 use super::tensor::{Matrix, UNIT};
+use crate::matter::meeting::faces::PRESSED;
 use crate::matter::meeting::skin::DEFORMATION;
 use crate::stage::{Course, Entry, Figure, Stage, StageError};
 use crate::state::{ACCELERATION, MASS, State};
@@ -54,6 +55,8 @@ pub struct Elastic<const L: usize, const T: usize> {
     pub(super) rising: Course<1>,
     pub(super) breaking: Option<Breaking<T>>,
     pub(super) plastic: Option<Plastic>,
+    /// Number of broken particles that the water knows of.
+    pub(super) cracked: usize,
 }
 
 impl<const L: usize, const T: usize> Elastic<L, T> {
@@ -75,6 +78,7 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             rising: Course::default(),
             breaking: None,
             plastic: None,
+            cracked: 0,
             links,
             body,
         };
@@ -190,6 +194,11 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
         self.accelerate(&mut acceleration, set.column(&MASS));
         set.put(&ACCELERATION, acceleration);
         self.outside(state, dt);
+        let set = &mut state.sets[self.body.set];
+        if set.has(&PRESSED) {
+            self.show_push(set);
+            self.show_giving(set);
+        }
         Ok(())
     }
 

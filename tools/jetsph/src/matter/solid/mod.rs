@@ -2,7 +2,8 @@
 //!
 //! The deformation is a function of the places at rest; its derivatives are those of quadratics ([`quadratic`]) that are
 //! fitted (`fit`) to the neighbours at rest ([`links`], seen from both `sides`, with weights that particles share in
-//! `stencils`). `forces` has the loops over them, and `shown` tells the water what moves. The energy is that of cells whose
+//! `stencils`). `forces` has the loops over them, and `shown` tells the water what moves
+//! and `giving` how easily. The energy is that of cells whose
 //! strain varies across them ([`cell`]), and forces are the slopes of that energy, so that they keep momentum, angular
 //! momentum and energy, and a solid at rest stays so. Faces are the true ones: rows of particles stand half a cell inside
 //! them, free faces need nothing, held and loaded ones are [`bound`] where they are. Where a scene has it break,
@@ -20,6 +21,7 @@ mod fit;
 mod flowing;
 mod forces;
 pub mod fracture;
+mod giving;
 pub mod law;
 pub mod links;
 mod nonlocal;

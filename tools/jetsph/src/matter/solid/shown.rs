@@ -3,13 +3,15 @@
 use particles::{Set, sweep};
 use rayon::prelude::*;
 
-use super::cell::gradient;
+use super::cell::{Derivatives, gradient};
 use super::elastic::{Elastic, GRAIN};
 use super::quadratic::second;
 use super::tensor::Matrix;
-use crate::matter::meeting::faces::{BEND_RATE, DEFORMATION_RATE, MIXED, WARP_RATE};
+use crate::matter::meeting::faces::{
+    BEND_PUSH, BEND_RATE, DEFORMATION_PUSH, DEFORMATION_RATE, MIXED, PRESSED, WARP_PUSH, WARP_RATE,
+};
 use crate::matter::meeting::skin::DEFORMATION;
-use crate::state::VELOCITY;
+use crate::state::{ACCELERATION, VELOCITY};
 
 /// Columns of a chunk of particles: the deformation, and rates of first, second and mixed derivatives.
 struct Shown<'a> {
@@ -59,9 +61,33 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             .collect()
     }
 
+    /// Shows the water how the faces of pressed cells are accelerated; anchors move evenly.
+    pub(super) fn show_push(&self, set: &mut Set) {
+        let mut columns = [&DEFORMATION_PUSH, &BEND_PUSH, &WARP_PUSH].map(|c| set.take(c));
+        let acceleration = set.column(&ACCELERATION).iter();
+        let mut field: Vec<[f64; L]> = acceleration
+            .map(|u| std::array::from_fn(|k| if k < 3 { u[k] } else { 0.0 }))
+            .collect();
+        field.resize(self.places.len(), [0.0; L]);
+        let pressed = set.column(&PRESSED).iter().enumerate();
+        for (a, _) in pressed.filter(|(_, pressed)| **pressed > 0) {
+            let [first, bend, warp] = &mut columns;
+            (first[a], bend[a], warp[a]) = Default::default();
+            if self.is_whole(a) {
+                let rate = self.derivatives_of(&field, a);
+                derived(&rate, &mut first[a], &mut bend[a], &mut warp[a]);
+            }
+        }
+        for (column, values) in [&DEFORMATION_PUSH, &BEND_PUSH, &WARP_PUSH]
+            .into_iter()
+            .zip(columns)
+        {
+            set.put(column, values);
+        }
+    }
+
     #[inline(always)]
     fn show_chunk(&self, begin: usize, speeds: &[[f64; L]], shown: &mut Shown<'_>) {
-        let d = L.min(3);
         for k in 0..shown.shape.len() {
             let a = begin + k;
             (shown.first[k], shown.bend[k], shown.warp[k]) = Default::default();
@@ -70,16 +96,33 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             }
             shown.shape[k] = gradient(&self.derivatives(a));
             let rate = self.derivatives_of(speeds, a);
-            for (j, column) in rate.iter().enumerate().take(d) {
-                for i in 0..d {
-                    shown.first[k][i][j] = column[i];
-                    shown.bend[k][i][j] = rate[second(d, j, j)][i];
-                }
-            }
-            for (column, (l, m)) in MIXED.into_iter().enumerate().filter(|(_, p)| p.1 < d) {
-                let mixed = &rate[second(d, l, m)];
-                (0..d).for_each(|i| shown.warp[k][i][column] = mixed[i]);
-            }
+            derived(
+                &rate,
+                &mut shown.first[k],
+                &mut shown.bend[k],
+                &mut shown.warp[k],
+            );
         }
+    }
+}
+
+/// Derivatives as the water wants them: first, second and mixed ones.
+#[inline(always)]
+fn derived<const L: usize, const T: usize>(
+    rate: &Derivatives<L, T>,
+    first: &mut Matrix,
+    bend: &mut Matrix,
+    warp: &mut Matrix,
+) {
+    let d = L.min(3);
+    for (j, column) in rate.iter().enumerate().take(d) {
+        for i in 0..d {
+            first[i][j] = column[i];
+            bend[i][j] = rate[second(d, j, j)][i];
+        }
+    }
+    for (column, (l, m)) in MIXED.into_iter().enumerate().filter(|(_, p)| p.1 < d) {
+        let mixed = &rate[second(d, l, m)];
+        (0..d).for_each(|i| warp[i][column] = mixed[i]);
     }
 }

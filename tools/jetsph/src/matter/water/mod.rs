@@ -34,5 +34,5 @@ mod sums;
 pub mod tait;
 mod walls;
 
-pub use divergence_free::{DivergenceFree, Liquid};
+pub use divergence_free::{DivergenceFree, Liquid, Shore};
 pub use flow::{Flow, Water};

@@ -2,7 +2,8 @@
 //!
 //! The gradient by differences is no sum of pair forces. What touches neither a wall nor a nozzle keeps its momentum: the
 //! mean of its accelerations is taken away. What is held gives the whole of it to what holds it: to each wall and nozzle what pairs
-//! across it tell, V_a V_b (p_a + p_b) grad W, and of what is left a share by the size of that.
+//! across it tell, V_a V_b (p_a + p_b) grad W, and of what is left a share by the size of that. So is what a solid beside the water
+//! takes.
 
 use kernels::Kernel;
 
@@ -17,12 +18,22 @@ pub(super) struct Bodies {
     members: Vec<u32>,
     /// Where each of these ends in `members`.
     ends: Vec<usize>,
+    /// Number of solids beside the water.
+    solids: usize,
 }
 
-/// Force of the water on each wall, and on all nozzles last \[N\].
+/// Force of the water on each wall, on each solid beside it, and on all nozzles last \[N\].
 pub(super) type Forces = Vec<[f64; 3]>;
 
 impl Bodies {
+    /// None yet, beside a number of solids.
+    pub(super) fn beside(solids: usize) -> Self {
+        Self {
+            solids,
+            ..Self::default()
+        }
+    }
+
     /// Finds them.
     fn find<K: Kernel>(&mut self, around: &Around<K>) {
         let n = around.seen.len();
@@ -58,7 +69,7 @@ impl Bodies {
         across: &[(u32, Forces)],
     ) -> Forces {
         self.find(around);
-        let holders = around.bodies.len() + 1;
+        let holders = around.bodies.len() + self.solids + 1;
         let mut touched = vec![u32::MAX; accelerations.len()];
         for (k, (a, _)) in across.iter().enumerate() {
             touched[*a as usize] = k as u32;
@@ -82,15 +93,16 @@ impl Bodies {
                     }
                 }
             }
-            if !is_held {
+            let size = |f: &[f64; 3]| f.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let whole: f64 = told.iter().map(size).sum();
+            // Water that has left a solid, and only seems to touch it, is held by nothing.
+            if !is_held || (self.solids > 0 && whole <= 0.0) {
                 let mean = sum.map(|x| x / mass);
                 for a in body {
                     (0..3).for_each(|k| accelerations[*a as usize][k] -= mean[k]);
                 }
                 continue;
             }
-            let size = |f: &[f64; 3]| f.iter().map(|x| x * x).sum::<f64>().sqrt();
-            let whole: f64 = told.iter().map(size).sum();
             let left: [f64; 3] =
                 std::array::from_fn(|k| -sum[k] - told.iter().map(|f| f[k]).sum::<f64>());
             for (total, force) in total.iter_mut().zip(&told) {

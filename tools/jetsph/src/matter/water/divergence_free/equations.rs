@@ -19,6 +19,7 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
     /// What the operators know of each row, and whom its pressure is coupled to.
     pub(super) fn sum(&mut self) {
         let (around, filled, is_beside) = (&self.around, &self.filled, &self.is_beside);
+        let beside = &self.beside;
         let n = around.seen.len();
         self.rows.resize(n, Sums::default());
         self.poisson
@@ -32,7 +33,14 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
                 let a = chunk * ROWS + k;
                 *row = Sums::default();
                 if !is_led(&around.seen[a]) {
-                    *row = Sums::of::<D, K>(around, a, is_beside[a], filled, &mut couplings.with);
+                    *row = Sums::of::<D, K>(
+                        around,
+                        a,
+                        is_beside[a],
+                        filled,
+                        beside.of(a),
+                        &mut couplings.with,
+                    );
                 }
                 couplings.ends.push(couplings.with.len() as u32);
             }
@@ -75,10 +83,12 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
         square.sqrt()
     }
 
-    /// A box that is full has a pressure but for a constant: what its equations sum to cannot be met and is shared by all.
+    /// A box that is full has a pressure but for a constant, if nothing yields: what its equations sum to cannot be met and is
+    /// shared by all.
     pub(super) fn level(&mut self, p: &mut [f64]) {
         let (rows, seen) = (&self.rows, &self.around.seen);
-        if rows.iter().any(|row| row.missing > 0.0) {
+        let yields = !self.poisson.yielding.is_empty();
+        if yields || rows.iter().any(|row| row.missing > 0.0) {
             return;
         }
         let right = &self.poisson.right;

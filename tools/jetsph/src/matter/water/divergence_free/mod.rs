@@ -16,24 +16,29 @@
 //! The gradient is that of differences, exact where p is linear (`operators`; Bonet and Lok 1999); what it lacks in
 //! action and reaction is put right in `bodies`. The equation is the compact one of Brookshaw (1985) with the diagonal as
 //! preconditioner (`poisson`), which begins from the last pressure. Particles come to lie in rows along streamlines and
-//! are shifted back (`shift`). A jet without an obstacle has p = 0 to the last bit, and keeps its speed.
+//! are shifted back (`shift`). Solids beside the water yield within the equation of the pressure (`beside`). A jet without an obstacle has p = 0 to the last bit, and keeps its speed.
 //!
 //! The step is bounded by how far neighbours go against one another and how far anything goes at all (it must see a wall
 //! before it is behind it), by no speed of sound.
 
+mod beside;
 mod bodies;
 mod equations;
 mod filled;
+mod ledger;
 mod operators;
 mod poisson;
 mod shift;
 mod slopes;
+mod yielding;
 
 use kernels::Kernel;
 use particles::{Column, POSITION, sweep};
 use shapes::Body;
 use steps::Limit;
 
+use self::beside::Beside;
+pub use self::beside::Shore;
 use self::bodies::Bodies;
 use self::filled::Filled;
 use self::operators::{Sums, is_led};
@@ -68,6 +73,8 @@ pub struct Liquid {
     pub smoothing_length: f64,
     /// Plain walls with their names.
     pub walls: Vec<(String, Body)>,
+    /// Whether it pulls where it cannot part from a solid.
+    pub pulls: bool,
 }
 
 /// The stage.
@@ -83,6 +90,7 @@ pub struct DivergenceFree<const D: usize, K> {
     poisson: Poisson,
     bodies: Bodies,
     walls: Walls,
+    beside: Beside<K>,
     /// Speed of neighbours against one another \[m/s\].
     closing: f64,
     /// Greatest f \[m/s2\].
@@ -94,9 +102,9 @@ pub struct DivergenceFree<const D: usize, K> {
 }
 
 impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
-    /// The stage of a scene's water.
+    /// The stage of a scene's water beside solids.
     #[must_use]
-    pub fn new(liquid: Liquid, kernel: K) -> Self {
+    pub fn new(liquid: Liquid, kernel: K, shores: Vec<Shore<K>>) -> Self {
         let filled = Filled::of(&kernel, liquid.spacing, D);
         let bodies = liquid.walls.iter().map(|(_, body)| body.clone()).collect();
         Self {
@@ -106,7 +114,8 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
             is_beside: Vec::new(),
             pushed: Vec::new(),
             poisson: Poisson::default(),
-            bodies: Bodies::default(),
+            bodies: Bodies::beside(shores.len()),
+            beside: Beside::new(shores),
             walls: Walls::new(liquid.walls.iter().map(|(name, _)| name.clone()).collect()),
             closing: 0.0,
             push: 0.0,
@@ -119,7 +128,7 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
 
     /// Looks at all particles, and brings back what stands behind a wall: only those before it see each other's images
     /// alike.
-    fn look(&mut self, state: &mut State, dt: f64) {
+    fn see(&mut self, state: &mut State, dt: f64) {
         let exchanges = state.exchanges;
         let set = &mut state.sets[self.liquid.set];
         let (mass, density) = (set.take(&MASS), self.liquid.density);
@@ -179,6 +188,10 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
             if self.is_beside[a] {
                 around.mirrored(a, |_, other, _, _, _| look(other.u));
             }
+            for partner in self.beside.of(a) {
+                let led = partner.led(own.u);
+                look([0, 1, 2].map(|k| 2.0 * led.u[k] - own.u[k]));
+            }
             most
         });
         most.map_or(0.0, |(_, most)| most.sqrt())
@@ -190,7 +203,6 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
         let set = &mut state.sets[self.liquid.set];
         let (mut velocity, mut pushes) = (set.take(&VELOCITY), set.take(&ACCELERATION));
         let mass = set.column(&MASS);
-        let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
         let [x, y, z, work, gained] = sweep::sum(mass.len(), |a| {
             let (f, own) = (self.pushed[a], accelerations[a]);
             let middle = [0, 1, 2].map(|k| velocity[a][k] + 0.5 * dt * (f[k] + own[k]));
@@ -226,6 +238,41 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
     }
 }
 
+impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
+    /// Solves for the pressure of a step of `dt` \[s\]. Water that does not pull has none below zero where it meets a solid: it parts from it.
+    fn solve(&mut self, p: &mut [f64], state: &State, dt: f64) -> Result<(), StageError> {
+        let density = self.liquid.density;
+        self.poisson.yielding = self.beside.yielding(state, density);
+        let mut floor = self.equations(dt);
+        if self.beside.len() > 0 {
+            // Steps of a solid may be much shorter than those of the water: in the same time as much may be left.
+            let limit = self.limit(state).map_or(dt, |limit| limit.seconds);
+            floor *= (dt / limit).min(1.0);
+        }
+        self.level(p);
+        let solved = self.poisson.solve(p, floor);
+        self.sweeps += solved.map_err(|what| StageError::Diverged {
+            set: "water".to_owned(),
+            particle: 0,
+            place: state.sets[self.liquid.set].column(&POSITION)[0],
+            quantity: "pressure [Pa]",
+            what,
+        })? as u64;
+        if !self.liquid.pulls {
+            for (row, _) in &self.poisson.yielding.rows {
+                let p = &mut p[*row as usize];
+                *p = p.max(0.0);
+            }
+        }
+        self.beside.note(p, &self.poisson.yielding);
+        Ok(())
+    }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}
+
 impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
     fn name(&self) -> &'static str {
         "water"
@@ -235,6 +282,11 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
         let set = &mut state.sets[self.liquid.set];
         set.declare(&LISTED);
         set.declare(&PRESSURE);
+        self.beside.declare(state);
+    }
+
+    fn look(&mut self, state: &mut State, _: f64) {
+        self.beside.show(state);
     }
 
     fn limit(&self, state: &State) -> Option<Limit> {
@@ -259,8 +311,13 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
     }
 
     fn act(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
-        self.look(state, dt);
+        self.beside.march(state, dt, &mut self.entry);
+        self.see(state, dt);
         self.predict(state, dt);
+        if self.beside.len() > 0 {
+            let seen = &self.around.seen;
+            self.beside.look(state, seen, dt, is_led);
+        }
         self.sum();
         let mut p = state.sets[self.liquid.set].take(&PRESSURE);
         for (p, seen) in p.iter_mut().zip(&self.around.seen) {
@@ -269,26 +326,26 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
             }
         }
         if dt > 0.0 {
-            let floor = self.equations(dt);
-            self.level(&mut p);
-            let solved = self.poisson.solve(&mut p, floor);
-            self.sweeps += solved.map_err(|what| StageError::Diverged {
-                set: "water".to_owned(),
-                particle: 0,
-                place: state.sets[self.liquid.set].column(&POSITION)[0],
-                quantity: "pressure [Pa]",
-                what,
-            })? as u64;
+            self.solve(&mut p, state, dt)?;
         }
         self.reach_led(&mut p);
+        let (density, seen) = (self.liquid.density, &self.around.seen);
+        self.beside.reach(&p, seen, density, &self.pushed);
         let mut accelerations = self.accelerations(&p);
         let across = self.across(&p);
-        let density = self.liquid.density;
         let bodies = &mut self.bodies;
         let mut forces = bodies.balance(&self.around, density, &mut accelerations, &across);
         self.strike(state, &accelerations, dt);
-        state.sets[self.liquid.set].put(&PRESSURE, p);
         let nozzles = forces.pop().unwrap_or_default();
+        if self.beside.len() > 0 && dt > 0.0 {
+            let on_solids = forces.split_off(self.around.bodies.len());
+            for force in &on_solids {
+                (0..3).for_each(|k| self.entry.impulse[k] -= dt * force[k]);
+            }
+            self.beside.press(state, &p, on_solids, dt);
+        }
+        state.sets[self.liquid.set].put(&PRESSURE, p);
+        forces.truncate(self.around.bodies.len());
         self.walls.forces = forces;
         let by_walls = self.walls.strike(dt);
         (0..3).for_each(|k| self.entry.impulse[k] += by_walls[k] - dt * nozzles[k]);
@@ -325,6 +382,7 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
 
     fn figures(&self, state: &State) -> Vec<Figure> {
         let mut figures = self.walls.figures(D);
+        figures.extend(self.beside.figures(state));
         figures.push(Figure {
             name: "water_sweeps".to_owned(),
             unit: "1",
@@ -337,6 +395,7 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
         self.around.bytes()
             + self.poisson.bytes()
             + self.bodies.bytes()
+            + self.beside.bytes()
             + (size_of::<Sums>() + 24 + 1) * self.rows.len()
     }
 
@@ -348,6 +407,7 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
             &[self.around.near.save()],
         ]
         .concat();
+        saved.extend(self.beside.save());
         saved.extend(self.walls.save());
         saved
     }
@@ -358,7 +418,7 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
         if let [closing, push, sweeps, seen, walls @ ..] = rest {
             (self.closing, self.push, self.sweeps) = (*closing, *push, *sweeps as u64);
             self.around.near.restore(listed, *seen);
-            self.walls.restore(walls);
+            self.walls.restore(self.beside.restore(walls));
         }
         self.around.stand_beside(listed);
     }

@@ -17,6 +17,7 @@
 use kernels::Kernel;
 use kernels::moments::{Moments, beyond, inverse, times, within};
 
+use super::beside::Partner;
 use super::filled::Filled;
 use crate::matter::water::around::Around;
 use crate::matter::water::seen::Seen;
@@ -116,6 +117,7 @@ impl Sums {
         a: usize,
         is_beside: bool,
         filled: &Filled,
+        partners: &[Partner],
         with: &mut Vec<(u32, f64)>,
     ) -> Self {
         let own = &around.seen[a];
@@ -142,6 +144,10 @@ impl Sums {
             around.mirrored(a, |(_, b), other, x, square, slope| {
                 add(b, other, x, square, slope)
             });
+        }
+        for partner in partners {
+            let led = partner.led(own.u);
+            add(usize::MAX, &led, partner.dx, partner.square, partner.slope);
         }
         gathered.sums.coupled = coupled;
         gathered.ended::<D>(filled)

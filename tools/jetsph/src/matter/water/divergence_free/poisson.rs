@@ -11,6 +11,7 @@ use particles::sweep;
 use rayon::prelude::*;
 
 use super::operators::Couplings;
+use super::yielding::Yielding;
 
 /// Rows per chunk.
 pub(super) const ROWS: usize = 256;
@@ -26,6 +27,8 @@ pub(super) struct Poisson {
     pub(super) diagonal: Vec<[f64; 2]>,
     /// V r \[Pa m\].
     pub(super) right: Vec<f64>,
+    /// What solids add to the rows.
+    pub(super) yielding: Yielding,
     scratch: Scratch<f64>,
 }
 
@@ -49,16 +52,19 @@ impl Operator<f64> for Poisson {
                 from = *end as usize;
             }
         });
+        self.yielding.apply(p, out);
     }
 }
 
 /// The inverse of the diagonal.
-struct Diagonal<'a>(&'a [[f64; 2]]);
+struct Diagonal<'a>(&'a [[f64; 2]], &'a Yielding);
 
 impl Inverse<f64> for Diagonal<'_> {
     fn invert(&mut self, rhs: &[[f64; 1]], out: &mut [[f64; 1]]) {
         let (rhs, out) = (rhs.as_flattened(), out.as_flattened_mut());
-        sweep::fill(out, |a| rhs[a] / (self.0[a][0] * self.0[a][1]));
+        sweep::fill(out, |a| {
+            rhs[a] / (self.0[a][0] * self.0[a][1] + self.1.diagonal(a))
+        });
     }
 }
 
@@ -70,7 +76,7 @@ impl Poisson {
             floor,
             ..Rule::to(0.0, 1 + SWEEPS)
         };
-        let mut diagonal = Diagonal(&self.diagonal);
+        let mut diagonal = Diagonal(&self.diagonal, &self.yielding);
         let solved = conjugate_gradient(self, &self.right, p, &mut diagonal, rule, &mut scratch);
         self.scratch = scratch;
         let solved = solved.sound().map_err(|e| e.to_string())?;

@@ -56,6 +56,11 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
                     (0..3).for_each(|k| sum[k] += part * x[k]);
                 });
             }
+            for partner in self.beside.of(a) {
+                let other = self.beside.pressure(partner);
+                let part = partner.seen.volume * partner.slope * (other - p[a]);
+                (0..3).for_each(|k| sum[k] += part * partner.dx[k]);
+            }
             times(self.rows[a].inverse, sum).map(|x| -x / density)
         });
         accelerations
@@ -70,7 +75,8 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
 
     /// What pairs across walls and exits of nozzles tell of the forces there: V_a V_b (p_a + p_b) grad W.
     pub(super) fn across(&self, p: &[f64]) -> Vec<(u32, Forces)> {
-        let (around, holders) = (&self.around, self.around.bodies.len() + 1);
+        let (around, beside) = (&self.around, &self.beside);
+        let holders = around.bodies.len() + beside.len() + 1;
         let all = (0..p.len()).into_par_iter().with_min_len(sweep::GRAIN);
         let each = all.filter_map(|a| {
             let own = &around.seen[a];
@@ -92,6 +98,10 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
                 around.mirrored(a, |(wall, b), other, x, _, slope| {
                     add(wall, self.beyond(p, b, other.x), other.volume, (x, slope));
                 });
+            }
+            if !beside.of(a).is_empty() {
+                forces.resize(holders, [0.0; 3]);
+                beside.across(a, p[a], &mut forces);
             }
             (!forces.is_empty()).then_some((a as u32, forces))
         });
