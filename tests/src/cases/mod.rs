@@ -69,6 +69,7 @@ mod heat_robin_square;
 mod heat_shock_disc;
 mod heat_sin_xy;
 mod heat_two_slabs;
+mod jet_column;
 mod jet_plate;
 mod jet_press;
 mod jet_still;
@@ -145,6 +146,7 @@ fn jets() -> Vec<Box<dyn Case>> {
     vec![
         Box::new(fracture_pull::FracturePull),
         Box::new(fracture_energy::FractureEnergy),
+        Box::new(jet_column::JetColumn),
         Box::new(jet_plate::JetPlate),
         Box::new(jet_press::JetPress),
         Box::new(jet_still::JetStill),

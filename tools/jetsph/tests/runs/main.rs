@@ -6,6 +6,7 @@ mod beside;
 mod judged;
 mod lengths;
 mod soundless;
+mod soundless_beside;
 
 use artefact::{Checkpoint, Header, Version};
 use jetsph::assemble::{Assembled, assemble};
@@ -317,7 +318,16 @@ fn water_and_solid_push_each_other_alike_and_part() {
 
 #[test]
 fn bits_do_not_depend_on_threads() {
-    for scene in [BAR, JET, CUT, TEAR, METAL, UPDATED, soundless::JET] {
+    for scene in [
+        BAR,
+        JET,
+        CUT,
+        TEAR,
+        METAL,
+        UPDATED,
+        soundless::JET,
+        soundless_beside::CUT,
+    ] {
         bits_are_the_same(scene);
     }
 }
@@ -339,7 +349,16 @@ fn bits_are_the_same(scene: &str) {
 
 #[test]
 fn a_run_taken_up_goes_on_with_the_same_bits() {
-    for scene in [BAR, JET, CUT, TEAR, METAL, UPDATED, soundless::JET] {
+    for scene in [
+        BAR,
+        JET,
+        CUT,
+        TEAR,
+        METAL,
+        UPDATED,
+        soundless::JET,
+        soundless_beside::CUT,
+    ] {
         is_taken_up(scene);
     }
 }

@@ -13,7 +13,7 @@
 
 use particles::{Column, POSITION, Set, sweep};
 
-use super::faces::Cells;
+use super::faces::{Cells, Place};
 use crate::matter::solid::tensor::{Matrix, cofactor, determinant};
 
 /// F along the axes of the lattice.
@@ -57,6 +57,9 @@ pub struct Skin {
     radius: f64,
     /// The cells of its lattice; none where water sees particles as they stand.
     pub(super) cells: Option<Cells>,
+    /// Size of a cell \[m\] and number of its parts along each axis.
+    size: [f64; 3],
+    counts: [f64; 3],
     /// Half of the spacing of the water \[m\].
     closed_gap: f64,
     /// The points near water, by cell.
@@ -108,6 +111,8 @@ impl Skin {
             spacing: volume.powf(1.0 / dimensions as f64),
             radius: 0.5 * size[..dimensions].iter().map(|x| x * x).sum::<f64>().sqrt(),
             cells,
+            size,
+            counts,
             closed_gap: 0.5 * water,
             points: Vec::new(),
         }
@@ -117,6 +122,24 @@ impl Skin {
     #[must_use]
     pub(super) fn part_volume(&self) -> f64 {
         self.volume
+    }
+
+    /// The part of a face that a place of it lies in: its number among all of the cell, and how many the face has. A cell that has
+    /// no face there is one part.
+    #[must_use]
+    pub(crate) fn part_of_face(&self, place: &Place) -> (usize, f64) {
+        let Some(normal) = (0..3).find(|k| place.depth[*k].abs() > 0.0) else {
+            return (0, 1.0);
+        };
+        let side = usize::from(place.depth[normal] > 0.0);
+        let (mut number, mut count) = (1 + 2 * normal + side, 1.0);
+        for k in (0..3).filter(|k| *k != normal) {
+            let within = (place.offset[k] / self.size[k] + 0.5) * self.counts[k];
+            let part = within.floor().clamp(0.0, self.counts[k] - 1.0);
+            number = number * PARTS_MOST as usize + part as usize;
+            count *= self.counts[k];
+        }
+        (number, count)
     }
 
     /// A gap between a solid and a wall into which no water fits \[m\].

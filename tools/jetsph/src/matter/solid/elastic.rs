@@ -31,6 +31,8 @@ pub const EQUIVALENT_STRAIN: Column<f64> = Column::new("equivalent_strain", "1",
 const SAFETY: f64 = 0.9;
 /// The same where cracks may leave particles with fits that are stiffer than any at rest.
 const CRACKED: f64 = 0.6;
+/// The same where water without sound presses on its faces: they get its pressure a step late.
+const BESIDE_WATER: f64 = 0.5;
 /// Particles per unit of parallel work.
 pub(super) const GRAIN: usize = 32;
 
@@ -146,10 +148,12 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
         "elastic"
     }
 
-    fn limit(&self, _: &State) -> Option<Limit> {
+    fn limit(&self, state: &State) -> Option<Limit> {
         let stiffer = sweep::greatest(self.stiffer.len(), |a| self.stiffer[a]);
         let stiffer = stiffer.map_or(1.0, |(_, most)| most.max(1.0));
-        let part = if self.breaking.is_some() {
+        let part = if state.sets[self.body.set].has(&PRESSED) {
+            BESIDE_WATER
+        } else if self.breaking.is_some() {
             CRACKED
         } else {
             SAFETY

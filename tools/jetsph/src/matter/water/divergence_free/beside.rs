@@ -19,71 +19,22 @@
 use std::collections::BTreeMap;
 
 use kernels::Kernel;
-use particles::{POSITION, sweep};
-use rayon::prelude::*;
+use particles::sweep;
 
 use super::ledger::Ledger;
+use super::shore::{Partner, Shore};
 use super::yielding::Yielding;
 use crate::matter::meeting::faces::{
-    BEND, BEND_PUSH, DEFORMATION_PUSH, GIVING, Moving, PRESSED, PULL, Place, TWIST, Taken, WARP,
-    WARP_PUSH,
+    BEND, BEND_PUSH, DEFORMATION_PUSH, GIVING, PRESSED, PULL, TWIST, Taken, WARP, WARP_PUSH,
 };
-use crate::matter::meeting::sight::Sight;
-use crate::matter::meeting::skin::DEFORMATION;
-use crate::matter::meeting::touch::Touch;
-use crate::matter::solid::tensor::cofactor;
 use crate::matter::water::seen::Seen;
 use crate::stage::{Entry, Figure};
-use crate::state::{MASS, State};
+use crate::state::State;
 
-/// How much a flat face of a lattice gives way to an impulse, over a free cell: for those that have just been met.
-const USUAL: f64 = 5.7;
-/// Water per unit of parallel work.
-const GRAIN: usize = 64;
-
-/// Forces on cells by solids and cells \[N\].
-type Known = BTreeMap<(usize, usize), [f64; 3]>;
-
-/// A solid beside the water.
-pub struct Shore<K> {
-    /// Who meets whom.
-    pub sight: Sight<K>,
-}
-
-/// A point of a solid, as a particle of the water sees it.
-pub(super) struct Partner {
-    /// Which solid, which of all points.
-    shore: usize,
-    point: usize,
-    visitor: usize,
-    touch: Touch,
-    /// What stands for water there: its volume, and that it is led.
-    pub(super) seen: Seen,
-    /// From the point to the particle \[m\], r^2 \[m2\], W and grad W = slope . dx.
-    pub(super) dx: [f64; 3],
-    pub(super) square: f64,
-    weight: f64,
-    pub(super) slope: f64,
-    /// Out of the solid, as the particle and as the solid sees it.
-    pub(super) normal: [f64; 3],
-    outward: [f64; 3],
-    /// k \[m2\].
-    area: f64,
-    /// u_f.n \[m/s\].
-    pub(super) speed: f64,
-}
-
-impl Partner {
-    /// What stands there, for water of a velocity \[m/s\]: how the two go against one another is counted twice.
-    pub(super) fn led(&self, u: [f64; 3]) -> Seen {
-        let n = self.normal;
-        let more = self.speed - (u[0] * n[0] + u[1] * n[1] + u[2] * n[2]);
-        Seen {
-            u: [0, 1, 2].map(|k| u[k] + more * n[k]),
-            ..self.seen
-        }
-    }
-}
+/// A solid, one of its cells, and a part of a face of that.
+pub(super) type Part = (usize, usize, usize);
+/// Forces on parts \[N\].
+pub(super) type Known = BTreeMap<Part, [f64; 3]>;
 
 /// All solids beside the water.
 pub(super) struct Beside<K> {
@@ -93,8 +44,8 @@ pub(super) struct Beside<K> {
     partners: Vec<Vec<Partner>>,
     /// Pressures at the points \[Pa\].
     pressure: Vec<f64>,
-    /// Which cells water meets, by solids.
-    met: Vec<(usize, usize)>,
+    /// What water meets.
+    met: Vec<Part>,
     /// With what the last pressure pushed each of them \[N\].
     known: Known,
     /// Forces on each solid \[N\].
@@ -182,28 +133,24 @@ impl<K: Kernel> Beside<K> {
 
     /// How the solids yield, for water of `density` \[kg/m3\].
     pub(super) fn yielding(&mut self, state: &State, density: f64) -> Yielding {
-        let cells = self
-            .shores
-            .iter()
-            .map(|s| state.sets[s.sight.skin.set].len());
-        let mut slots: Vec<Vec<u32>> = cells.map(|n| vec![u32::MAX; n]).collect();
+        let mut slots: BTreeMap<Part, u32> = BTreeMap::new();
         let (mut rows, mut soft) = (Vec::new(), Vec::new());
         self.met.clear();
         for (a, partners) in self.partners.iter().enumerate() {
             let mut met: Vec<(u32, [f64; 3])> = Vec::new();
             for partner in partners {
-                let (cell, shore) = (partner.touch.place.cell, &self.shores[partner.shore]);
-                let slot = &mut slots[partner.shore][cell];
-                if *slot == u32::MAX {
-                    *slot = soft.len() as u32;
-                    soft.push(2.0 * density * shore.softness(state, cell));
-                    self.met.push((partner.shore, cell));
-                }
+                let shore = &self.shores[partner.shore];
+                let slot = *slots.entry(partner.part).or_insert_with(|| {
+                    let cell = partner.part.1;
+                    soft.push(2.0 * density * partner.parts * shore.softness(state, cell));
+                    self.met.push(partner.part);
+                    soft.len() as u32 - 1
+                });
                 let area = partner.outward.map(|n| partner.area * n);
-                if let Some((_, sum)) = met.iter_mut().find(|(cell, _)| cell == slot) {
+                if let Some((_, sum)) = met.iter_mut().find(|(part, _)| *part == slot) {
                     (0..3).for_each(|k| sum[k] += area[k]);
                 } else {
-                    met.push((*slot, area));
+                    met.push((slot, area));
                 }
             }
             if !met.is_empty() {
@@ -322,8 +269,8 @@ impl<K: Kernel> Beside<K> {
                 .iter()
                 .for_each(|ledger| ledger.save(&mut saved));
             saved.push(self.known.len() as f64);
-            for ((shore, cell), [x, y, z]) in &self.known {
-                saved.extend([*shore as f64, *cell as f64, *x, *y, *z]);
+            for ((shore, cell, part), [x, y, z]) in &self.known {
+                saved.extend([*shore as f64, *cell as f64, *part as f64, *x, *y, *z]);
             }
         }
         saved
@@ -345,102 +292,13 @@ impl<K: Kernel> Beside<K> {
         }
         self.known.clear();
         if let Some((count, others)) = rest.split_first() {
-            let (all, others) = others.split_at(5 * *count as usize);
-            for [shore, cell, x, y, z] in all.as_chunks::<5>().0 {
-                self.known
-                    .insert((*shore as usize, *cell as usize), [*x, *y, *z]);
+            let (all, others) = others.split_at(6 * *count as usize);
+            for [shore, cell, part, x, y, z] in all.as_chunks::<6>().0 {
+                let part = (*shore as usize, *cell as usize, *part as usize);
+                self.known.insert(part, [*x, *y, *z]);
             }
             rest = others;
         }
         rest
-    }
-}
-
-impl<K: Kernel> Shore<K> {
-    /// s of a cell \[1/kg\].
-    fn softness(&self, state: &State, cell: usize) -> f64 {
-        let set = &state.sets[self.sight.skin.set];
-        let told = set.column(&GIVING)[cell];
-        if told > 0.0 {
-            told
-        } else {
-            USUAL / set.column(&MASS)[cell]
-        }
-    }
-
-    /// The partners of each visitor.
-    fn partners(
-        &self,
-        state: &State,
-        seen: &[Seen],
-        place: (usize, usize),
-        known: &Known,
-        dt: f64,
-    ) -> Vec<Vec<Partner>> {
-        let (number, first) = place;
-        let skin = &self.sight.skin;
-        let set = &state.sets[skin.set];
-        let (moving, pushed) = (Moving::of(set), Moving::pushed(set));
-        let position = state.sets[self.sight.water].column(&POSITION);
-        let of = |v: usize| -> Vec<Partner> {
-            let (a, mirror) = self.sight.visitor(v);
-            let own = position[a];
-            let image = mirror.iter().fold(own, |x, plane| {
-                let height = plane.height(own, x);
-                [0, 1, 2].map(|k| x[k] - 2.0 * height * plane.normal[k])
-            });
-            let back = |x: [f64; 3]| mirror.iter().rev().fold(x, |x, plane| plane.mirrored(x));
-            let each = self.sight.row(v).iter().map(|p| {
-                let point = &skin.points[*p as usize];
-                let dx = [0, 1, 2].map(|k| image[k] - point.x[k]);
-                let square = dx[0] * dx[0] + dx[1] * dx[1] + dx[2] * dx[2];
-                let touch = skin.touch(&moving, *p, dx, own, mirror);
-                let outward = self.outward(state, &touch.place, dx);
-                let normal = back(touch.seen(mirror, outward));
-                let (dx, slope) = (back(dx), self.sight.kernel.slope(square.sqrt()));
-                let along: f64 = (0..3).map(|k| dx[k] * normal[k]).sum();
-                let (cell, soft) = (touch.place.cell, self.softness(state, touch.place.cell));
-                let face = moving.velocity(&touch.place);
-                let push = pushed.velocity(&touch.place);
-                let force = known.get(&(number, cell)).copied().unwrap_or_default();
-                let speed =
-                    (0..3).map(|k| outward[k] * (face[k] + dt * push[k] - soft * dt * force[k]));
-                Partner {
-                    shore: number,
-                    point: first + *p as usize,
-                    visitor: v,
-                    seen: Seen {
-                        volume: point.volume,
-                        value: 1.0,
-                        ..Seen::default()
-                    },
-                    square,
-                    weight: self.sight.kernel.value(square.sqrt()),
-                    area: -seen[a].volume * point.volume * slope * along.max(0.0),
-                    speed: speed.sum(),
-                    touch,
-                    dx,
-                    slope,
-                    normal,
-                    outward,
-                }
-            });
-            each.collect()
-        };
-        let all = (0..self.sight.visitors())
-            .into_par_iter()
-            .with_min_len(GRAIN);
-        all.map(of).collect()
-    }
-
-    /// The normal of the face at a place; where there is none, towards the water at an offset \[m\].
-    fn outward(&self, state: &State, place: &Place, towards: [f64; 3]) -> [f64; 3] {
-        let shape = &state.sets[self.sight.skin.set].column(&DEFORMATION)[place.cell];
-        let turned =
-            cofactor(shape).map(|row| (0..3).map(|k| row[k] * place.depth[k]).sum::<f64>());
-        let is_face = place.depth.iter().any(|x| x.abs() > 0.0);
-        let normal = if is_face { turned } else { towards };
-        let size = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
-        normal.map(|x| x / size.max(f64::MIN_POSITIVE))
     }
 }

@@ -1,12 +1,14 @@
 //! The equation of the pressure, row by row.
 
 use kernels::Kernel;
-use particles::sweep;
+use particles::{POSITION, sweep};
 use rayon::prelude::*;
 
 use super::DivergenceFree;
 use super::operators::{Couplings, Sums, is_led};
 use super::poisson::ROWS;
+use crate::stage::{Stage, StageError};
+use crate::state::State;
 
 /// Excess that counts, and the most of it: cells that are a little wider than deep have some at rest.
 const EXCESS: [f64; 2] = [0.01, 0.06];
@@ -16,6 +18,40 @@ const LEAST: f64 = 0.25;
 const TOLERANCE: f64 = 1e-5;
 
 impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
+    /// Solves for the pressure of a step of `dt` \[s\]. Water that does not pull has none below zero where it meets a solid: it parts from it.
+    pub(super) fn solve(
+        &mut self,
+        p: &mut [f64],
+        state: &State,
+        dt: f64,
+    ) -> Result<(), StageError> {
+        let density = self.liquid.density;
+        self.poisson.yielding = self.beside.yielding(state, density);
+        let mut floor = self.equations(dt);
+        if self.beside.len() > 0 {
+            // Steps of a solid may be much shorter than those of the water: in the same time as much may be left.
+            let limit = self.limit(state).map_or(dt, |limit| limit.seconds);
+            floor *= (dt / limit).min(1.0);
+        }
+        self.level(p);
+        let solved = self.poisson.solve(p, floor);
+        self.sweeps += solved.map_err(|what| StageError::Diverged {
+            set: "water".to_owned(),
+            particle: 0,
+            place: state.sets[self.liquid.set].column(&POSITION)[0],
+            quantity: "pressure [Pa]",
+            what,
+        })? as u64;
+        if !self.liquid.pulls {
+            for (row, _) in &self.poisson.yielding.rows {
+                let p = &mut p[*row as usize];
+                *p = p.max(0.0);
+            }
+        }
+        self.beside.note(p, &self.poisson.yielding);
+        Ok(())
+    }
+
     /// What the operators know of each row, and whom its pressure is coupled to.
     pub(super) fn sum(&mut self) {
         let (around, filled, is_beside) = (&self.around, &self.filled, &self.is_beside);

@@ -29,6 +29,7 @@ mod ledger;
 mod operators;
 mod poisson;
 mod shift;
+mod shore;
 mod slopes;
 mod yielding;
 
@@ -38,11 +39,11 @@ use shapes::Body;
 use steps::Limit;
 
 use self::beside::Beside;
-pub use self::beside::Shore;
 use self::bodies::Bodies;
 use self::filled::Filled;
 use self::operators::{Sums, is_led};
 use self::poisson::Poisson;
+pub use self::shore::Shore;
 use super::around::Around;
 use super::near::LISTED;
 use super::nozzle::LED;
@@ -235,37 +236,6 @@ impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
         sweep::change(&mut self.around.seen, |a, seen| {
             (0..3).for_each(|k| seen.u[k] += dt * accelerations[a][k]);
         });
-    }
-}
-
-impl<const D: usize, K: Kernel> DivergenceFree<D, K> {
-    /// Solves for the pressure of a step of `dt` \[s\]. Water that does not pull has none below zero where it meets a solid: it parts from it.
-    fn solve(&mut self, p: &mut [f64], state: &State, dt: f64) -> Result<(), StageError> {
-        let density = self.liquid.density;
-        self.poisson.yielding = self.beside.yielding(state, density);
-        let mut floor = self.equations(dt);
-        if self.beside.len() > 0 {
-            // Steps of a solid may be much shorter than those of the water: in the same time as much may be left.
-            let limit = self.limit(state).map_or(dt, |limit| limit.seconds);
-            floor *= (dt / limit).min(1.0);
-        }
-        self.level(p);
-        let solved = self.poisson.solve(p, floor);
-        self.sweeps += solved.map_err(|what| StageError::Diverged {
-            set: "water".to_owned(),
-            particle: 0,
-            place: state.sets[self.liquid.set].column(&POSITION)[0],
-            quantity: "pressure [Pa]",
-            what,
-        })? as u64;
-        if !self.liquid.pulls {
-            for (row, _) in &self.poisson.yielding.rows {
-                let p = &mut p[*row as usize];
-                *p = p.max(0.0);
-            }
-        }
-        self.beside.note(p, &self.poisson.yielding);
-        Ok(())
     }
 }
 

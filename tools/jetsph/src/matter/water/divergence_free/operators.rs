@@ -17,8 +17,8 @@
 use kernels::Kernel;
 use kernels::moments::{Moments, beyond, inverse, times, within};
 
-use super::beside::Partner;
 use super::filled::Filled;
+use super::shore::Partner;
 use crate::matter::water::around::Around;
 use crate::matter::water::seen::Seen;
 
