@@ -4,7 +4,7 @@
 //! kick      u += dt/2 a               velocity Verlet: of second order, and it keeps the energy of a solid for ever
 //! drift     x += dt u                 in two halves where there is water
 //! flow      rho += dt d(rho)/dt       between them: with x and u of the middle of the step
-//! act       every stage adds to a     in the order of the list
+//! act       every stage adds to a     in the order of the list; then impulses that some have for others
 //! kick      u += dt/2 a
 //! exchange  particles come and leave
 //! ```
@@ -104,6 +104,9 @@ impl March {
         }
         for stage in &mut self.stages {
             timed(stage.name(), &mut || stage.act(state, dt))?;
+        }
+        for stage in &mut self.stages {
+            stage.receive(state, dt);
         }
         Ok(())
     }

@@ -165,6 +165,9 @@ pub trait Stage: Send {
     /// When a quantity diverges.
     fn act(&mut self, state: &mut State, dt: f64) -> Result<(), StageError>;
 
+    /// Takes up the impulses that later stages have left for it over a step of `dt` \[s\], after all have acted.
+    fn receive(&mut self, _state: &mut State, _dt: f64) {}
+
     /// Brings particles in and takes them away, at the end of a step of `dt` \[s\]; `state.time` is that of its start.
     ///
     /// # Errors

@@ -16,7 +16,7 @@ use particles::{Column, Set};
 
 use crate::matter::solid::fracture::BROKEN;
 use crate::matter::solid::tensor::Matrix;
-use crate::state::{ACCELERATION, VELOCITY};
+use crate::state::VELOCITY;
 
 /// dF/dt \[1/s\].
 pub const DEFORMATION_RATE: Column<Matrix> = Column::new("deformation_rate", "1/s", [[0.0; 3]; 3]);
@@ -28,6 +28,8 @@ pub const WARP_RATE: Column<Matrix> = Column::new("warp_rate", "1/(m s)", [[0.0;
 pub const PRESSED: Column<u8> = Column::new("pressed", "1", 0).saved();
 /// How much the faces of a pressed cell give way to an impulse at once \[1/kg\].
 pub const GIVING: Column<f64> = Column::new("giving", "1/kg", 0.0);
+/// What the last forces of water without sound give each particle \[m/s2\].
+pub const PULLED: Column<[f64; 3]> = Column::new("pulled", "m/s2", [0.0; 3]);
 /// d2F/dt2 \[1/s2\] of pressed cells.
 pub const DEFORMATION_PUSH: Column<Matrix> = Column::new("deformation_push", "1/s2", [[0.0; 3]; 3]);
 /// Like [`BEND_RATE`], of accelerations \[1/(m s2)\].
@@ -263,11 +265,11 @@ impl<'a> Moving<'a> {
         }
     }
 
-    /// Of a set, with accelerations in place of velocities; those of cells that are not pressed are even.
+    /// Of a set, with accelerations \[m/s2\] in place of velocities; those of cells that are not pressed are even.
     #[must_use]
-    pub fn pushed(set: &'a Set) -> Self {
+    pub fn pushed(set: &'a Set, accelerations: &'a [[f64; 3]]) -> Self {
         Self {
-            velocity: set.column(&ACCELERATION),
+            velocity: accelerations,
             first: set.column(&DEFORMATION_PUSH),
             bend: set.column(&BEND_PUSH),
             warp: set.column(&WARP_PUSH),

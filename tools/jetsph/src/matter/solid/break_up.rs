@@ -11,6 +11,7 @@ use super::nonlocal::Boxes;
 use super::stiffness::stiffness;
 use super::tensor::{UNIT, determinant, transposed_times};
 use super::trial::Trial;
+use crate::matter::meeting::faces::PRESSED;
 use crate::matter::meeting::skin::DEFORMATION;
 use crate::stage::Figure;
 use crate::state::{ACCELERATION, MASS, State};
@@ -173,7 +174,9 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
         let before = self.own_accelerations(set, time);
         self.break_all(fresh, set, time);
         self.answer(time);
-        self.twisted(set);
+        if !set.has(&PRESSED) {
+            self.twisted(set);
+        }
         let after = self.own_accelerations(set, time);
         sweep::change(&mut acceleration, |a, own| {
             (0..3).for_each(|k| own[k] += after[a][k] - before[a][k]);

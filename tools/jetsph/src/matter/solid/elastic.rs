@@ -31,7 +31,7 @@ pub const EQUIVALENT_STRAIN: Column<f64> = Column::new("equivalent_strain", "1",
 const SAFETY: f64 = 0.9;
 /// The same where cracks may leave particles with fits that are stiffer than any at rest.
 const CRACKED: f64 = 0.6;
-/// The same where water without sound presses on its faces: they get its pressure a step late.
+/// The same where water without sound presses on its faces: their softness is known by a bound alone.
 const BESIDE_WATER: f64 = 0.5;
 /// Particles per unit of parallel work.
 pub(super) const GRAIN: usize = 32;
@@ -193,17 +193,27 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
                 ),
             });
         }
-        self.twisted(set);
+        if !set.has(&PRESSED) {
+            self.twisted(set);
+        }
         let mut acceleration = set.take(&ACCELERATION);
         self.accelerate(&mut acceleration, set.column(&MASS));
         set.put(&ACCELERATION, acceleration);
         self.outside(state, dt);
         let set = &mut state.sets[self.body.set];
         if set.has(&PRESSED) {
+            self.show_pulled(set);
             self.show_push(set);
             self.show_giving(set);
         }
         Ok(())
+    }
+
+    fn receive(&mut self, state: &mut State, dt: f64) {
+        let set = &mut state.sets[self.body.set];
+        if set.has(&PRESSED) && dt > 0.0 {
+            self.take_impulses(set, dt);
+        }
     }
 
     fn look(&mut self, state: &mut State, time: f64) {
@@ -273,7 +283,14 @@ impl<const L: usize, const T: usize> Stage for Elastic<L, T> {
             return figures;
         }
         let name = state.sets[self.body.set].name();
-        let axes = ["x", "y", "z"].iter().zip(self.held.0).take(L.min(3));
+        let set = &state.sets[self.body.set];
+        let leaning = if set.has(&PRESSED) {
+            self.leaning(set)
+        } else {
+            [0.0; 3]
+        };
+        let whole = [0, 1, 2].map(|k| self.held.0[k] + leaning[k]);
+        let axes = ["x", "y", "z"].iter().zip(whole).take(L.min(3));
         figures.extend(axes.map(|(axis, force)| Figure {
             name: format!("{name}_clamp_force_{axis}"),
             unit: "N",

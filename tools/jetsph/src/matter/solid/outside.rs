@@ -6,7 +6,7 @@ use super::bound::Load;
 use super::elastic::Elastic;
 use super::forces::add;
 use super::quadratic::second;
-use crate::matter::meeting::faces::{BEND, MIXED, PULL, TWIST, WARP};
+use crate::matter::meeting::faces::{BEND, MIXED, PRESSED, PULL, TWIST, WARP};
 use crate::state::{ACCELERATION, MASS, State, VELOCITY};
 
 impl<const L: usize, const T: usize> Elastic<L, T> {
@@ -79,11 +79,11 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
                 *sum -= dt * rate * part;
             }
         }
-        for (own, (pull, mass)) in acceleration
-            .iter_mut()
-            .zip(set.column(&PULL).iter().zip(mass))
-        {
-            (0..3).for_each(|k| own[k] += pull[k] / mass);
+        if !set.has(&PRESSED) {
+            let pulls = set.column(&PULL).iter().zip(mass);
+            for (own, (pull, mass)) in acceleration.iter_mut().zip(pulls) {
+                (0..3).for_each(|k| own[k] += pull[k] / mass);
+            }
         }
         set.put(&ACCELERATION, acceleration);
         let held = self.reaction();

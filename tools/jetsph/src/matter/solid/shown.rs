@@ -8,7 +8,8 @@ use super::elastic::{Elastic, GRAIN};
 use super::quadratic::second;
 use super::tensor::Matrix;
 use crate::matter::meeting::faces::{
-    BEND_PUSH, BEND_RATE, DEFORMATION_PUSH, DEFORMATION_RATE, MIXED, PRESSED, WARP_PUSH, WARP_RATE,
+    BEND_PUSH, BEND_RATE, DEFORMATION_PUSH, DEFORMATION_RATE, MIXED, PRESSED, PULLED, WARP_PUSH,
+    WARP_RATE,
 };
 use crate::matter::meeting::skin::DEFORMATION;
 use crate::state::{ACCELERATION, VELOCITY};
@@ -61,12 +62,13 @@ impl<const L: usize, const T: usize> Elastic<L, T> {
             .collect()
     }
 
-    /// Shows the water how the faces of pressed cells are accelerated; anchors move evenly.
+    /// Shows the water how the faces of pressed cells are accelerated, its last forces included; anchors move evenly.
     pub(super) fn show_push(&self, set: &mut Set) {
         let mut columns = [&DEFORMATION_PUSH, &BEND_PUSH, &WARP_PUSH].map(|c| set.take(c));
-        let acceleration = set.column(&ACCELERATION).iter();
-        let mut field: Vec<[f64; L]> = acceleration
-            .map(|u| std::array::from_fn(|k| if k < 3 { u[k] } else { 0.0 }))
+        let others = set.column(&ACCELERATION).iter();
+        let both = others.zip(set.column(&PULLED));
+        let mut field: Vec<[f64; L]> = both
+            .map(|(a, b)| std::array::from_fn(|k| if k < 3 { a[k] + b[k] } else { 0.0 }))
             .collect();
         field.resize(self.places.len(), [0.0; L]);
         let pressed = set.column(&PRESSED).iter().enumerate();

@@ -4,31 +4,31 @@
 //! does: the face f between the two moves with
 //!
 //! ```text
-//! u_f = u + dt a - s dt F       of the face itself, less what its yielding counts from (`yielding`)
+//! u_f = u + dt a + s (J - dt F) what its forces give it, the last ones F of the water included, and how it yields (`yielding`)
 //! u_p = 2 (u_f.n) n - u_a       along the normal n of the face alone: water slips
 //! p_p = sum_b V_b W_bp (p_b + rho f_b.(x_p - x_b))/sum_b V_b W_bp       (Adami, Hu and Adams 2012, eq. 27)
 //! F_f = -sum_a 2 k_ap p_a n,   k_ap = -V_a V_p (dW/dr)/r x_ap.n
 //! ```
 //!
-//! F there is the last force as the equation of the pressure has it, -sum_a 2 K_a p_a: that which acts is a little different, and the
+//! F in the second term is that of the equation of the pressure, -sum_a 2 K_a p_a: that which acts is a little different, and the
 //! difference would be a leak.
 //!
 //! Forces act on the faces ([`crate::matter::meeting::faces`]), as those of water with sound do, so that cracks let water in and
-//! whole faces do not. The water has its impulse at once, the solid in its next step; what is under way is kept account of (`ledger`).
+//! whole faces do not. Solid and water take the impulse of the pressure at once, in the same step
+//! ([`crate::stage::Stage::receive`]): a solid that got it a step later swung against water that is denser than itself.
 
 use std::collections::BTreeMap;
 
 use kernels::Kernel;
-use particles::sweep;
+use particles::{Set, sweep};
 
-use super::ledger::Ledger;
 use super::shore::{Partner, Shore};
 use super::yielding::Yielding;
 use crate::matter::meeting::faces::{
-    BEND, BEND_PUSH, DEFORMATION_PUSH, GIVING, PRESSED, PULL, TWIST, Taken, WARP, WARP_PUSH,
+    BEND, BEND_PUSH, DEFORMATION_PUSH, GIVING, PRESSED, PULL, PULLED, TWIST, Taken, WARP, WARP_PUSH,
 };
 use crate::matter::water::seen::Seen;
-use crate::stage::{Entry, Figure};
+use crate::stage::Figure;
 use crate::state::State;
 
 /// A solid, one of its cells, and a part of a face of that.
@@ -36,10 +36,12 @@ pub(super) type Part = (usize, usize, usize);
 /// Forces on parts \[N\].
 pub(super) type Known = BTreeMap<Part, [f64; 3]>;
 
+/// Force on a cell \[N\] and its moments, by rows of first, second and mixed derivatives.
+type Charge = [[f64; 3]; 10];
+
 /// All solids beside the water.
 pub(super) struct Beside<K> {
     shores: Vec<Shore<K>>,
-    ledgers: Vec<Ledger>,
     /// Partners of each particle; nothing where no solid is.
     partners: Vec<Vec<Partner>>,
     /// Pressures at the points \[Pa\].
@@ -48,6 +50,10 @@ pub(super) struct Beside<K> {
     met: Vec<Part>,
     /// With what the last pressure pushed each of them \[N\].
     known: Known,
+    /// Forces on cells with their moments, as columns of the solids have them.
+    charges: Vec<(usize, usize, Charge)>,
+    /// Whether the columns lack them, after a checkpoint was taken up.
+    is_new: bool,
     /// Forces on each solid \[N\].
     pub(super) forces: Vec<[f64; 3]>,
 }
@@ -55,13 +61,14 @@ pub(super) struct Beside<K> {
 impl<K: Kernel> Beside<K> {
     pub(super) fn new(shores: Vec<Shore<K>>) -> Self {
         Self {
-            ledgers: vec![Ledger::default(); shores.len()],
             forces: vec![[0.0; 3]; shores.len()],
             shores,
             partners: Vec::new(),
             pressure: Vec::new(),
             met: Vec::new(),
-            known: BTreeMap::new(),
+            known: Known::new(),
+            charges: Vec::new(),
+            is_new: false,
         }
     }
 
@@ -85,22 +92,33 @@ impl<K: Kernel> Beside<K> {
                 .for_each(|c| set.declare(c));
             set.declare(&PRESSED);
             set.declare(&GIVING);
+            set.declare(&PULLED);
         }
     }
 
-    /// Puts forces into columns that lack them.
+    /// Puts the forces into columns that lack them.
     pub(super) fn show(&mut self, state: &mut State) {
-        for (shore, ledger) in self.shores.iter().zip(&mut self.ledgers) {
-            ledger.look(&mut state.sets[shore.sight.skin.set]);
+        if std::mem::take(&mut self.is_new) {
+            for (shore, cell, charge) in &self.charges {
+                let set = &mut state.sets[self.shores[*shore].sight.skin.set];
+                set.column_mut(&PULL)[*cell] = charge[0];
+                for (k, column) in [&TWIST, &BEND, &WARP].into_iter().enumerate() {
+                    set.column_mut(column)[*cell].copy_from_slice(&charge[3 * k + 1..3 * k + 4]);
+                }
+            }
         }
     }
 
-    /// Counts what the solids got in a step of `dt` \[s\].
-    pub(super) fn march(&mut self, state: &State, dt: f64, entry: &mut Entry) {
-        for (shore, ledger) in self.shores.iter().zip(&mut self.ledgers) {
-            let got = ledger.march(&state.sets[shore.sight.skin.set], dt);
-            entry.spent -= got.work;
-            (0..3).for_each(|k| entry.impulse[k] += got.impulse[k]);
+    /// Keeps the forces of the columns of a solid.
+    fn keep(&mut self, number: usize, set: &Set) {
+        let pressed = set.column(&PRESSED).iter().enumerate();
+        for (cell, _) in pressed.filter(|(_, pressed)| **pressed > 0) {
+            let mut charge = [[0.0; 3]; 10];
+            charge[0] = set.column(&PULL)[cell];
+            for (k, column) in [&TWIST, &BEND, &WARP].into_iter().enumerate() {
+                charge[3 * k + 1..3 * k + 4].copy_from_slice(&set.column(column)[cell]);
+            }
+            self.charges.push((number, cell, charge));
         }
     }
 
@@ -160,7 +178,7 @@ impl<K: Kernel> Beside<K> {
         Yielding::of(self.partners.len(), rows, soft)
     }
 
-    /// Notes with what the pressures \[Pa\] push each cell, as their equation knows it.
+    /// Notes with what the pressures \[Pa\] push each part, as their equation knows it.
     pub(super) fn note(&mut self, p: &[f64], yielding: &Yielding) {
         let forces = yielding.forces(p);
         self.known = self.met.iter().copied().zip(forces).collect();
@@ -201,9 +219,8 @@ impl<K: Kernel> Beside<K> {
         }
     }
 
-    /// Gives the solids their forces, which have given the water its impulse over a step of `dt` \[s\]: what pairs tell, and of what is left of
-    /// the whole forces \[N\] a share by the size of that.
-    pub(super) fn press(&mut self, state: &mut State, p: &[f64], whole: Vec<[f64; 3]>, dt: f64) {
+    /// Puts forces on the solids: what pairs tell, and of what is left of the whole forces \[N\] a share by the size of that.
+    pub(super) fn press(&mut self, state: &mut State, p: &[f64], whole: Vec<[f64; 3]>) {
         let mut told = vec![([0.0; 3], 0.0); self.len()];
         for (a, partners) in self.partners.iter().enumerate() {
             for partner in partners {
@@ -213,7 +230,8 @@ impl<K: Kernel> Beside<K> {
                 *sizes += size.abs();
             }
         }
-        for (number, shore) in self.shores.iter().enumerate() {
+        self.charges.clear();
+        for number in 0..self.len() {
             let (sum, sizes) = told[number];
             let left = [0, 1, 2].map(|k| {
                 if sizes > 0.0 {
@@ -222,7 +240,7 @@ impl<K: Kernel> Beside<K> {
                     0.0
                 }
             });
-            let set = &mut state.sets[shore.sight.skin.set];
+            let set = &mut state.sets[self.shores[number].sight.skin.set];
             let mut taken = Taken::begin(set);
             let pressed = set.column_mut(&PRESSED);
             pressed.fill(0);
@@ -234,7 +252,8 @@ impl<K: Kernel> Beside<K> {
                     pressed[partner.touch.place.cell] = 1;
                 }
             }
-            self.ledgers[number].renew(set, taken, dt);
+            taken.end(set);
+            self.keep(number, set);
         }
         self.forces = whole;
     }
@@ -256,8 +275,7 @@ impl<K: Kernel> Beside<K> {
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
         let partners = self.partners.iter().map(Vec::capacity).sum::<usize>();
-        let ledgers = self.ledgers.iter().map(Ledger::bytes).sum::<usize>();
-        size_of::<Partner>() * partners + 24 * self.partners.len() + ledgers
+        size_of::<Partner>() * partners + 24 * self.partners.len()
     }
 
     /// What a checkpoint keeps; nothing without solids.
@@ -265,12 +283,14 @@ impl<K: Kernel> Beside<K> {
         let mut saved = Vec::new();
         if !self.shores.is_empty() {
             saved.extend(self.forces.as_flattened());
-            self.ledgers
-                .iter()
-                .for_each(|ledger| ledger.save(&mut saved));
-            saved.push(self.known.len() as f64);
-            for ((shore, cell, part), [x, y, z]) in &self.known {
-                saved.extend([*shore as f64, *cell as f64, *part as f64, *x, *y, *z]);
+            saved.extend([self.known.len() as f64, self.charges.len() as f64]);
+            for ((shore, cell, part), force) in &self.known {
+                saved.extend([*shore as f64, *cell as f64, *part as f64]);
+                saved.extend(force);
+            }
+            for (shore, cell, charge) in &self.charges {
+                saved.extend([*shore as f64, *cell as f64]);
+                saved.extend(charge.as_flattened());
             }
         }
         saved
@@ -281,24 +301,27 @@ impl<K: Kernel> Beside<K> {
         if self.shores.is_empty() {
             return saved;
         }
-        let mut rest = saved;
-        for force in self.forces.as_flattened_mut() {
-            if let Some((first, others)) = rest.split_first() {
-                (*force, rest) = (*first, others);
-            }
-        }
-        for ledger in &mut self.ledgers {
-            rest = ledger.restore(rest);
-        }
-        self.known.clear();
-        if let Some((count, others)) = rest.split_first() {
-            let (all, others) = others.split_at(6 * *count as usize);
-            for [shore, cell, part, x, y, z] in all.as_chunks::<6>().0 {
-                let part = (*shore as usize, *cell as usize, *part as usize);
-                self.known.insert(part, [*x, *y, *z]);
-            }
-            rest = others;
-        }
+        let (told, rest) = saved.split_at(3 * self.shores.len());
+        self.forces.as_flattened_mut().copy_from_slice(told);
+        let [known, charges, rest @ ..] = rest else {
+            return rest;
+        };
+        let (parts, rest) = rest.split_at(6 * *known as usize);
+        let (cells, rest) = rest.split_at(32 * *charges as usize);
+        let each = parts.as_chunks::<6>().0.iter();
+        let each = each.map(|[shore, cell, part, x, y, z]| {
+            let part = (*shore as usize, *cell as usize, *part as usize);
+            (part, [*x, *y, *z])
+        });
+        self.known = each.collect();
+        let each = cells.as_chunks::<32>().0.iter();
+        let each = each.map(|[shore, cell, numbers @ ..]| {
+            let mut charge = [[0.0; 3]; 10];
+            charge.as_flattened_mut().copy_from_slice(numbers);
+            (*shore as usize, *cell as usize, charge)
+        });
+        self.charges = each.collect();
+        self.is_new = true;
         rest
     }
 }

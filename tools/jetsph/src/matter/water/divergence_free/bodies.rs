@@ -2,12 +2,17 @@
 //!
 //! The gradient by differences is no sum of pair forces. What touches neither a wall nor a nozzle keeps its momentum: the
 //! mean of its accelerations is taken away. What is held gives the whole of it to what holds it: to each wall and nozzle what pairs
-//! across it tell, V_a V_b (p_a + p_b) grad W, and of what is left a share by the size of that. So is what a solid beside the water
-//! takes.
+//! across it tell, V_a V_b (p_a + p_b) grad W, and of what is left a share by the size of that. So does a solid beside the water;
+//! there what is left is shared along the forces f that pairs tell, since water slips along all that holds it:
+//!
+//! ```text
+//! c_h = W_h l + rest |f_h|/sum |f|,   W_h = f_h f_h/|f_h|,   (sum_h W_h + eps sum_h |f_h|) l = left
+//! ```
 
 use kernels::Kernel;
 
 use super::operators::is_led;
+use crate::matter::solid::tensor::{Matrix, UNIT, cofactor, determinant};
 use crate::matter::water::around::Around;
 
 /// Bodies of free water.
@@ -105,13 +110,21 @@ impl Bodies {
             }
             let left: [f64; 3] =
                 std::array::from_fn(|k| -sum[k] - told.iter().map(|f| f[k]).sum::<f64>());
-            for (total, force) in total.iter_mut().zip(&told) {
-                let share = if whole > 0.0 {
-                    size(force) / whole
-                } else {
-                    1.0 / holders as f64
-                };
-                (0..3).for_each(|k| total[k] += force[k] + share * left[k]);
+            let shares = if self.solids > 0 {
+                along(&told, left)
+            } else {
+                let each = told.iter().map(|force| {
+                    let share = if whole > 0.0 {
+                        size(force) / whole
+                    } else {
+                        1.0 / holders as f64
+                    };
+                    left.map(|x| share * x)
+                });
+                each.collect()
+            };
+            for ((total, force), share) in total.iter_mut().zip(&told).zip(shares) {
+                (0..3).for_each(|k| total[k] += force[k] + share[k]);
             }
         }
         total
@@ -121,4 +134,35 @@ impl Bodies {
     pub(super) fn bytes(&self) -> usize {
         self.seen.capacity() + 4 * self.members.capacity() + 8 * self.ends.capacity()
     }
+}
+
+/// eps.
+const EVENLY: f64 = 1e-3;
+
+/// Shares of what is `left` along the `told` forces, which are not all zero \[N\].
+fn along(told: &[[f64; 3]], left: [f64; 3]) -> Forces {
+    let size = |f: &[f64; 3]| f.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let whole: f64 = told.iter().map(size).sum();
+    let mut sum: Matrix = UNIT.map(|row| row.map(|x| EVENLY * whole * x));
+    for f in told.iter().filter(|f| size(f) > 0.0) {
+        for (row, y) in sum.iter_mut().zip(f) {
+            (0..3).for_each(|k| row[k] += y * f[k] / size(f));
+        }
+    }
+    // It is symmetric, and so is what it is cofactor to.
+    let (cofactors, scale) = (cofactor(&sum), determinant(&sum));
+    let factors = cofactors.map(|row| (0..3).map(|k| row[k] * left[k]).sum::<f64>() / scale);
+    let mut shares: Forces = told
+        .iter()
+        .map(|f| {
+            let part: f64 = (0..3).map(|k| f[k] * factors[k]).sum();
+            f.map(|x| part * x / size(f).max(f64::MIN_POSITIVE))
+        })
+        .collect();
+    let rest: [f64; 3] =
+        std::array::from_fn(|k| left[k] - shares.iter().map(|c| c[k]).sum::<f64>());
+    for (share, f) in shares.iter_mut().zip(told) {
+        (0..3).for_each(|k| share[k] += size(f) / whole * rest[k]);
+    }
+    shares
 }

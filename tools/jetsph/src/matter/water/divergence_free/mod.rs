@@ -25,7 +25,6 @@ mod beside;
 mod bodies;
 mod equations;
 mod filled;
-mod ledger;
 mod operators;
 mod poisson;
 mod shift;
@@ -281,7 +280,6 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
     }
 
     fn act(&mut self, state: &mut State, dt: f64) -> Result<(), StageError> {
-        self.beside.march(state, dt, &mut self.entry);
         self.see(state, dt);
         self.predict(state, dt);
         if self.beside.len() > 0 {
@@ -312,7 +310,7 @@ impl<const D: usize, K: Kernel> Stage for DivergenceFree<D, K> {
             for force in &on_solids {
                 (0..3).for_each(|k| self.entry.impulse[k] -= dt * force[k]);
             }
-            self.beside.press(state, &p, on_solids, dt);
+            self.beside.press(state, &p, on_solids);
         }
         state.sets[self.liquid.set].put(&PRESSURE, p);
         forces.truncate(self.around.bodies.len());

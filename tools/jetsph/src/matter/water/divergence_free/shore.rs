@@ -1,22 +1,29 @@
 //! Which particles of the water meet which points of a solid, and how its faces move there.
 
 use kernels::Kernel;
-use particles::POSITION;
+use particles::{POSITION, Set};
 use rayon::prelude::*;
 
 use super::beside::{Known, Part};
-use crate::matter::meeting::faces::{GIVING, Moving, Place};
+use crate::matter::meeting::faces::{GIVING, Moving, PULLED, Place};
 use crate::matter::meeting::sight::Sight;
 use crate::matter::meeting::skin::DEFORMATION;
 use crate::matter::meeting::touch::Touch;
 use crate::matter::solid::tensor::cofactor;
 use crate::matter::water::seen::Seen;
-use crate::state::{MASS, State};
+use crate::state::{ACCELERATION, MASS, State};
 
 /// How much a flat face of a lattice gives way to an impulse, over a free cell: for those that have just been met.
-const USUAL: f64 = 5.7;
+const USUAL: f64 = 10.0;
 /// Water per unit of parallel work.
 const GRAIN: usize = 64;
+
+/// Accelerations of the particles of a solid, the last forces of the water included \[m/s2\].
+fn pushed(set: &Set) -> Vec<[f64; 3]> {
+    let others = set.column(&ACCELERATION).iter();
+    let both = others.zip(set.column(&PULLED));
+    both.map(|(a, b)| [0, 1, 2].map(|k| a[k] + b[k])).collect()
+}
 
 /// A solid beside the water.
 pub struct Shore<K> {
@@ -46,7 +53,7 @@ pub(super) struct Partner {
     pub(super) parts: f64,
     /// k \[m2\].
     pub(super) area: f64,
-    /// u_f.n \[m/s\].
+    /// u_f.n, without s J \[m/s\].
     pub(super) speed: f64,
 }
 
@@ -86,7 +93,8 @@ impl<K: Kernel> Shore<K> {
         let (number, first) = place;
         let skin = &self.sight.skin;
         let set = &state.sets[skin.set];
-        let (moving, pushed) = (Moving::of(set), Moving::pushed(set));
+        let accelerations = pushed(set);
+        let (moving, pushed) = (Moving::of(set), Moving::pushed(set, &accelerations));
         let position = state.sets[self.sight.water].column(&POSITION);
         let of = |v: usize| -> Vec<Partner> {
             let (a, mirror) = self.sight.visitor(v);
@@ -108,12 +116,12 @@ impl<K: Kernel> Shore<K> {
                 let cell = touch.place.cell;
                 let (number_of_part, parts) = skin.part_of_face(&touch.place);
                 let part = (number, cell, number_of_part);
-                let soft = parts * self.softness(state, cell);
                 let face = moving.velocity(&touch.place);
                 let push = pushed.velocity(&touch.place);
+                let soft = parts * self.softness(state, cell);
                 let force = known.get(&part).copied().unwrap_or_default();
                 let speed =
-                    (0..3).map(|k| outward[k] * (face[k] + dt * push[k] - soft * dt * force[k]));
+                    (0..3).map(|k| outward[k] * (face[k] + dt * (push[k] - soft * force[k])));
                 Partner {
                     shore: number,
                     point: first + *p as usize,

@@ -9,9 +9,16 @@
 //! u_f = u_f* + s (J - dt F),   J = -sum_a 2 K_a p_a dt
 //! ```
 //!
-//! with u_f* of the forces F that act now, and K_a = sum_p V_a V_p |grad W|.n, the area with which row a of the water meets the
-//! cell. The equation of row a gets 2 rho K_a.(s sum_b K_b p_b): symmetric, and never negative. A greater s is stable, but lets the water
-//! sink into the solid by s dt^2 F; one below half of the true s is not stable.
+//! with u_f* of all forces, the last ones F of the water included, and K_a = sum_p V_a V_p |grad W|.n, the area with which row a of
+//! the water meets the part of a face. The equation of row a gets 2 rho K_a.(s sum_b K_b p_b): symmetric, and never negative. With
+//! water of a mass M that rides on a face of the true s' the forces F_n of steps keep
+//!
+//! ```text
+//! (s + 1/M) F_n = 2 (s - s') F_(n-1) - (s - s') F_(n-2)
+//! ```
+//!
+//! so that what a wrong s makes dies away, where s is at least s', however dense the water is; the water comes no further into the
+//! solid than by (s - s') dt^2 F.
 
 use particles::sweep;
 
