@@ -142,7 +142,7 @@ impl Case for JetPlate {
 }
 
 /// Takes the sound out of the water, and what belongs to it.
-fn soundless(patch: &mut Value) {
+pub(super) fn soundless(patch: &mut Value) {
     patch["water"]["method"] = json!("divergence_free");
     patch["water"]["artificial_viscosity"] = Value::Null;
     patch["water"]["density_diffusion"] = Value::Null;

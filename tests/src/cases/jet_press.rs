@@ -5,13 +5,15 @@ use std::f64::consts::PI;
 use artefact::Reader;
 use serde_json::json;
 
-use super::jet_plate::free_jet;
+use super::jet_plate::{free_jet, soundless};
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::lab::{Lab, LabError};
 use crate::solid::{changed, fault, frames};
 
 /// Width of the jet \[m\].
 const WIDTH: f64 = 0.01;
+/// Its speed \[m/s\], where water without sound has none to refer to.
+const SPEED: f64 = 5.0;
 /// Depths at which strains are compared, in widths: bands of a fifth.
 const DEPTHS: usize = 10;
 /// The strains are means from this part of the run on.
@@ -33,24 +35,36 @@ impl Case for JetPress {
         "half plane (Flamant 1892, Johnson 1985, section 2.5) under the pressure of a plane free jet (Milne-Thomson 1968)"
     }
 
+    fn methods(&self) -> &'static [&'static str] {
+        &["default", "soundless"]
+    }
+
     fn targets(&self) -> Vec<Target> {
         vec![
             Target::error("strain", 0.1).at_level(2),
             Target::error("strain", 0.1).at_level(3),
+            Target::error("strain", 0.1).at_level(2).of("soundless"),
+            Target::error("strain", 0.1).at_level(3).of("soundless"),
         ]
     }
 
-    fn measure(&self, lab: &Lab, level: u32, _: &str) -> Result<Measurement, LabError> {
+    fn measure(&self, lab: &Lab, level: u32, method: &str) -> Result<Measurement, LabError> {
         // Solid of 4, 2 and 1 mm, water of half of it.
         let spacing = 0.004 / f64::from(1 << (level.clamp(1, 4) - 1));
         let mut patch = changed(lab, self.name(), |solid| {
             solid["spacing_m"] = json!(spacing)
         })?;
         patch["water"] = json!({"spacing_m": 0.5 * spacing});
-        let run = lab.run("jetsph", self.name(), &format!("level{level}"), &patch)?;
+        let mut label = format!("level{level}");
+        if method == "soundless" {
+            soundless(&mut patch);
+            patch["water"]["reference_speed_m_s"] = json!(null);
+            label = format!("soundless-{level}");
+        }
+        let run = lab.run("jetsph", self.name(), &label, &patch)?;
         let (solid, water) = (&run.scene["solids"][0], &run.scene["water"]);
         let number = |value: &serde_json::Value| value.as_f64().unwrap_or(f64::NAN);
-        let speed = number(&water["reference_speed_m_s"]);
+        let speed = water["reference_speed_m_s"].as_f64().unwrap_or(SPEED);
         let head = 0.5 * number(&water["density_kg_m3"]) * speed * speed;
         let (modulus, ratio) = (
             number(&solid["elastic"]["youngs_modulus_pa"]),

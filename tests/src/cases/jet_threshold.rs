@@ -3,6 +3,7 @@
 use artefact::Reader;
 use serde_json::json;
 
+use super::jet_plate::soundless;
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::lab::{Lab, LabError};
 
@@ -28,7 +29,7 @@ impl Case for JetThreshold {
     }
 
     fn methods(&self) -> &'static [&'static str] {
-        &["3", "8", "sudden"]
+        &["3", "8", "sudden", "soundless-3", "soundless-8"]
     }
 
     fn levels(&self, _: &str, asked: &[u32]) -> Vec<u32> {
@@ -36,9 +37,11 @@ impl Case for JetThreshold {
     }
 
     fn targets(&self) -> Vec<Target> {
-        let each = ["3", "8"].into_iter().flat_map(|method| {
-            [1, 2].map(|level| Target::error("wrong", 0.0).at_level(level).of(method))
-        });
+        let each = ["3", "8", "soundless-3", "soundless-8"]
+            .into_iter()
+            .flat_map(|method| {
+                [1, 2].map(|level| Target::error("wrong", 0.0).at_level(level).of(method))
+            });
         // 26.3 ms of 25 ms.
         let late = Target::error("time_of_parting", 0.11).at_level(2);
         each.chain([late.of("sudden")]).collect()
@@ -51,7 +54,7 @@ impl Case for JetThreshold {
         })?;
         patch["water"] = json!({"spacing_m": 0.5 * spacing});
         // The sudden jet is that of the study.
-        let slow = method.parse::<f64>().ok();
+        let slow = method.trim_start_matches("soundless-").parse::<f64>().ok();
         if let Some(speed) = slow {
             // Until the jet has gone 150 mm; it rises over 20 ms of a jet of 5 m/s, so that no blow decides.
             let (end, rise) = (0.2 / speed, 0.1 / speed);
@@ -59,6 +62,9 @@ impl Case for JetThreshold {
             patch["output"] = json!({"frames_interval_s": end / 20.0});
             patch["water"]["nozzles"] = json!([{"name": "jet", "exit_m": [0, 0.042], "direction": [0, -1], "width_m": 0.004,
                 "speed_m_s": {"expr": format!("{speed}*min(1, 0.1 + 0.9*t/{rise})")}}]);
+        }
+        if method.starts_with("soundless") {
+            soundless(&mut patch);
         }
         let run = lab.run("jetsph", self.name(), &format!("{method}-{level}"), &patch)?;
         let reader = Reader::open_kind(&run.artefact, "jet-frames", 1)?;
