@@ -1,5 +1,6 @@
 //! From a scene to sets of particles and the list of stages: the only place that asks what a scene contains.
 
+mod beside;
 mod pouring;
 mod preview;
 mod room;
@@ -54,7 +55,7 @@ pub fn assemble(scene: &Scene) -> Result<Assembled, Vec<Fault>> {
                     // Its pressure answers what all others do.
                     last.insert(0, stage);
                 } else {
-                    let meet = |solid| water::meet(scene, of, law, solid, &mut state);
+                    let meet = |solid| beside::meet(scene, of, law, solid, &mut state);
                     stages.splice(0..0, solids.iter().map(meet).collect::<Vec<_>>());
                     stages.push(stage);
                 }

@@ -8,14 +8,13 @@ use run::Fault;
 use run::property::Arguments;
 use shapes::Body;
 
+use super::beside::{bodies, skin};
 use super::pouring::Pouring;
 use super::solid::Made;
 use super::{plain_walls, vector};
-use crate::matter::meeting::faces::{BEND_RATE, DEFORMATION_RATE, WARP_RATE};
 use crate::matter::meeting::sight::Sight;
-use crate::matter::meeting::skin::{DEFORMATION, Skin};
-use crate::matter::meeting::wet::Wet;
-use crate::matter::water::friction::{Artificial, ArtificialViscosity};
+use crate::matter::meeting::skin::Skin;
+use crate::matter::water::friction::Artificial;
 use crate::matter::water::near::LISTED;
 use crate::matter::water::nozzle::{Feed, LED, Nozzle};
 use crate::matter::water::outlet::Outlet;
@@ -55,7 +54,6 @@ pub(super) fn water(
     let place = state.sets.len();
     let mut set = empty_set(of);
     let walls = plain_walls(&scene.walls, dimensions);
-    let mut fastest = 0.0_f64;
     let nozzles = nozzles(scene, of, place)?;
     let mut filling = Pouring::new(scene, of, &nozzles);
     for (k, body) in of.bodies.iter().enumerate() {
@@ -63,10 +61,11 @@ pub(super) fn water(
         filled.map_err(|fault| fault.within(&format!("/bodies/{k}")))?;
     }
     let (pressures, notes) = (filling.pressures, filling.notes);
-    for u in set.column(&VELOCITY) {
-        fastest = fastest.max(u[0].hypot(u[1]).hypot(u[2]));
-    }
-    fastest = nozzles.iter().map(Nozzle::most).fold(fastest, f64::max);
+    let speeds = set.column(&VELOCITY).iter();
+    let speeds = speeds.map(|u| u[0].hypot(u[1]).hypot(u[2]));
+    let fastest = speeds
+        .chain(nozzles.iter().map(Nozzle::most))
+        .fold(0.0, f64::max);
     let law = Tait {
         density: of.density_kg_m3,
         sound_speed: if of.method == Method::DivergenceFree {
@@ -91,8 +90,8 @@ pub(super) fn water(
             walls,
             pulls: of.tension == Tension::Full,
         };
-        let skins = solids.iter().map(|solid| skin(of, solid, state));
-        soundless(scene, liquid, kind, skins.collect())
+        let skins = solids.iter().map(|solid| skin(of, solid, state)).collect();
+        soundless(scene, liquid, kind, skins)
     } else {
         let artificial = of.artificial_viscosity;
         let water = Water {
@@ -153,76 +152,6 @@ fn free<const D: usize, K: Kernel + Clone + 'static>(
     };
     let shores = skins.into_iter().map(shore).collect();
     Box::new(DivergenceFree::<D, K>::new(liquid, kernel, shores))
-}
-
-/// Plain walls.
-fn bodies(scene: &Scene) -> Vec<Body> {
-    let walls = plain_walls(&scene.walls, scene.dimensions);
-    walls.into_iter().map(|(_, body)| body).collect()
-}
-
-/// A solid as the water sees it.
-fn skin(of: &WaterScene, solid: &Made, state: &mut State) -> Skin {
-    let dimensions = state.dimensions;
-    let set = &mut state.sets[solid.set];
-    [DEFORMATION, DEFORMATION_RATE, BEND_RATE, WARP_RATE]
-        .iter()
-        .for_each(|column| set.declare(column));
-    // A cell that is no smaller than what it is divided to is one point: the arrangement of the source (figs 4 and 5).
-    let part = if solid.is_updated {
-        f64::INFINITY
-    } else {
-        of.spacing_m
-    };
-    Skin::new(solid.set, solid.size, solid.cells.clone(), part, dimensions)
-}
-
-/// The stage of a solid and the water, which was put into the state last.
-pub(super) fn meet(
-    scene: &Scene,
-    of: &WaterScene,
-    law: Tait,
-    solid: &Made,
-    state: &mut State,
-) -> Box<dyn Stage> {
-    let walls = bodies(scene);
-    let (water, dimensions) = (state.sets.len() - 1, state.dimensions);
-    let skin = skin(of, solid, state);
-    let h = 0.5 * of.smoothing * (of.spacing_m + skin.spacing);
-    let none = ArtificialViscosity {
-        linear: 0.0,
-        quadratic: 0.0,
-        guard: ArtificialViscosity::usual_guard(),
-    };
-    let artificial = of.artificial_viscosity.unwrap_or(none);
-    let friction = Artificial::new(&artificial, law.density, law.sound_speed, h);
-    match (dimensions, of.kernel) {
-        (2, KernelScene::Spline) => wet(
-            law,
-            friction,
-            Sight::new(water, skin, CubicSpline::<2>::new(h), walls),
-        ),
-        (2, KernelScene::Wendland) => wet(
-            law,
-            friction,
-            Sight::new(water, skin, Wendland::<2>::new(h), walls),
-        ),
-        (_, KernelScene::Spline) => wet(
-            law,
-            friction,
-            Sight::new(water, skin, CubicSpline::<3>::new(h), walls),
-        ),
-        (_, KernelScene::Wendland) => wet(
-            law,
-            friction,
-            Sight::new(water, skin, Wendland::<3>::new(h), walls),
-        ),
-    }
-}
-
-/// The stage of a solid and the water with a kernel.
-fn wet<K: Kernel + 'static>(law: Tait, friction: Artificial, sight: Sight<K>) -> Box<dyn Stage> {
-    Box::new(Wet::new(law, friction, sight))
 }
 
 /// The set without particles.

@@ -22,13 +22,16 @@
 
 use particles::sweep;
 
+/// Numbers of cells or of rows, each with K \[m2\].
+type Areas = Vec<(u32, [f64; 3])>;
+
 /// Rows that meet a solid, and cells that yield.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Yielding {
     /// Rows, with the cells that they meet and K \[m2\].
-    pub(super) rows: Vec<(u32, Vec<(u32, [f64; 3])>)>,
+    pub(super) rows: Vec<(u32, Areas)>,
     /// The same by cells.
-    cells: Vec<Vec<(u32, [f64; 3])>>,
+    cells: Vec<Areas>,
     /// 2 rho s of each cell \[1/m3\].
     soft: Vec<f64>,
     /// The diagonal of all rows; nothing where none meets a solid \[m\].
@@ -41,7 +44,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 impl Yielding {
     /// Of rows of `n` in all, with the cells that they meet.
-    pub(super) fn of(n: usize, rows: Vec<(u32, Vec<(u32, [f64; 3])>)>, soft: Vec<f64>) -> Self {
+    pub(super) fn of(n: usize, rows: Vec<(u32, Areas)>, soft: Vec<f64>) -> Self {
         let mut cells = vec![Vec::new(); soft.len()];
         let mut diagonal = vec![0.0; if rows.is_empty() { 0 } else { n }];
         for (row, met) in &rows {
