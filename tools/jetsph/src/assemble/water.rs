@@ -61,11 +61,7 @@ pub(super) fn water(
         filled.map_err(|fault| fault.within(&format!("/bodies/{k}")))?;
     }
     let (pressures, notes) = (filling.pressures, filling.notes);
-    let speeds = set.column(&VELOCITY).iter();
-    let speeds = speeds.map(|u| u[0].hypot(u[1]).hypot(u[2]));
-    let fastest = speeds
-        .chain(nozzles.iter().map(Nozzle::most))
-        .fold(0.0, f64::max);
+    let fastest = nozzles.iter().map(Nozzle::most).fold(speed(&set), f64::max);
     let law = Tait {
         density: of.density_kg_m3,
         sound_speed: if of.method == Method::DivergenceFree {
@@ -111,6 +107,13 @@ pub(super) fn water(
         last,
         notes,
     })
+}
+
+/// The greatest speed of what stands there \[m/s\].
+fn speed(set: &Set) -> f64 {
+    let all = set.column(&VELOCITY).iter();
+    all.map(|u| u[0].hypot(u[1]).hypot(u[2]))
+        .fold(0.0, f64::max)
 }
 
 /// The stage of water with sound.

@@ -47,7 +47,7 @@ fn linear_fields_have_their_slope_and_divergence() {
     let around = cloud(|[x, y, _]| [3.0 * x - y, 2.0 * x - 5.0 * y, 0.0]);
     let filled = Filled::of(&around.kernel, D, 2);
     for a in inside(&around) {
-        let row = Sums::of::<2, _>(&around, a, false, &filled, &mut Vec::new());
+        let row = Sums::of::<2, _>(&around, a, false, &filled, &[], &mut Vec::new());
         assert!((row.divergence + 2.0).abs() < 1e-11, "{row:?}");
         assert!((row.slope[1][0] + 1.0).abs() < 1e-11 && (row.slope[0][1] - 2.0).abs() < 1e-11);
         let p = |x: [f64; 3]| 7.0 * x[0] - 4.0 * x[1];
@@ -69,7 +69,7 @@ fn what_goes_at_a_wall_closes_and_what_goes_along_it_does_not() {
         let low = (0..400)
             .filter(|a| around.seen[*a].x[1] < D && (around.seen[*a].x[0] - 1.0).abs() < 0.5);
         for a in low {
-            let row = Sums::of::<2, _>(&around, a, true, &filled, &mut Vec::new());
+            let row = Sums::of::<2, _>(&around, a, true, &filled, &[], &mut Vec::new());
             assert!(row.missing <= 0.0, "a wall is no surface: {row:?}");
             assert_eq!(row.divergence < -1.0, closes, "{row:?}");
             assert!(closes || row.divergence.abs() < 1e-12, "{row:?}");
@@ -88,6 +88,7 @@ fn couplings_of_pairs_are_alike_from_both_sides() {
             a,
             around.seen[a].x[1] < around.near.radius(),
             &filled,
+            &[],
             &mut with,
         );
         with
