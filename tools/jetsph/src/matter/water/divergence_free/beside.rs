@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 use kernels::Kernel;
 use particles::{Set, sweep};
 
-use super::shore::{Partner, Shore};
+use super::shore::{Known, Part, Partner, Shore};
 use super::yielding::Yielding;
 use crate::matter::meeting::faces::{
     BEND, BEND_PUSH, DEFORMATION_PUSH, GIVING, PRESSED, PULL, PULLED, TWIST, Taken, WARP, WARP_PUSH,
@@ -30,11 +30,6 @@ use crate::matter::meeting::faces::{
 use crate::matter::water::seen::Seen;
 use crate::stage::Figure;
 use crate::state::State;
-
-/// A solid, one of its cells, and a part of a face of that.
-pub(super) type Part = (usize, usize, usize);
-/// Forces on parts \[N\].
-pub(super) type Known = BTreeMap<Part, [f64; 3]>;
 
 /// Force on a cell \[N\] and its moments, by rows of first, second and mixed derivatives.
 type Charge = [[f64; 3]; 10];

@@ -1,10 +1,11 @@
 //! Which particles of the water meet which points of a solid, and how its faces move there.
 
+use std::collections::BTreeMap;
+
 use kernels::Kernel;
 use particles::{POSITION, Set};
 use rayon::prelude::*;
 
-use super::beside::{Known, Part};
 use crate::matter::meeting::faces::{GIVING, Moving, PULLED, Place};
 use crate::matter::meeting::sight::Sight;
 use crate::matter::meeting::skin::DEFORMATION;
@@ -24,6 +25,11 @@ fn pushed(set: &Set) -> Vec<[f64; 3]> {
     let both = others.zip(set.column(&PULLED));
     both.map(|(a, b)| [0, 1, 2].map(|k| a[k] + b[k])).collect()
 }
+
+/// A solid, one of its cells, and a part of a face of that.
+pub(super) type Part = (usize, usize, usize);
+/// Forces on parts \[N\].
+pub(super) type Known = BTreeMap<Part, [f64; 3]>;
 
 /// A solid beside the water.
 pub struct Shore<K> {

@@ -21,6 +21,7 @@
 //! solid than by (s - s') dt^2 F.
 
 use particles::sweep;
+use shapes::frame::dot;
 
 /// Numbers of cells or of rows, each with K \[m2\].
 type Areas = Vec<(u32, [f64; 3])>;
@@ -36,10 +37,6 @@ pub(super) struct Yielding {
     soft: Vec<f64>,
     /// The diagonal of all rows; nothing where none meets a solid \[m\].
     diagonal: Vec<f64>,
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 impl Yielding {
