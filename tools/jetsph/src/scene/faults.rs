@@ -7,6 +7,7 @@ use shapes::check::{Misfit, check, filled};
 use super::{Method, Scene, Solid};
 use crate::matter::solid::fracture::Criterion;
 use crate::matter::solid::law::Plane;
+use crate::matter::water::tait::Tension;
 
 /// Most frames and balances of a run.
 const EVENTS_MOST: f64 = 1e7;
@@ -94,6 +95,10 @@ impl Scene {
             if water.method == Method::DivergenceFree {
                 let updated = self.solids.iter().any(|s| s.updated_form.is_some());
                 water.soundless_faults(updated, faults);
+                if self.solids.is_empty() && water.tension == Tension::Full {
+                    let what = "means nothing to water without sound where it meets no solid: leave it out";
+                    faults.push(Fault::at("/water/tension", what));
+                }
             }
             water.faults(self.dimensions, &mut vectors, &mut misfits, faults);
         }

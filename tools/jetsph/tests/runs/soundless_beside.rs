@@ -117,4 +117,10 @@ fn what_water_without_sound_lacks_beside_solids_is_named_with_what_to_do() {
         let said: String = faults.iter().map(ToString::to_string).collect();
         assert!(said.contains(place) && said.contains(advice), "{said}");
     }
+    let alone = r#"{"kind": "jetsph.scene", "version": 1, "dimensions": 2, "time": {"end_s": 1},
+        "water": {"density_kg_m3": 1000, "spacing_m": 0.001, "method": "divergence_free", "tension": "full",
+            "bodies": [{"body": {"box": {"min_m": [0, 0], "max_m": [0.01, 0.01]}}}]},
+        "output": {"frames_interval_s": 1}}"#;
+    let faults = assemble(&parsed(alone)).err().unwrap();
+    assert!(faults.iter().any(|fault| fault.path() == "/water/tension"));
 }
