@@ -93,18 +93,17 @@ impl Law {
         }
     }
 
-    /// Refuses a temperature \[K\] for which the scene has none.
+    /// Refuses a temperature \[K\] for which the scene has none of `what`.
     ///
     /// # Errors
     /// [`StageError::Data`] with both sides.
-    pub fn covers(&self, temperature: f64) -> Result<(), StageError> {
+    pub fn covers(&self, temperature: f64, what: &str) -> Result<(), StageError> {
         match self {
             Self::OfTemperature {
                 range: (from, to), ..
-            } if !(*from..=*to).contains(&temperature) => {
-                let what = format!("{temperature} K is outside of the table, {from} K to {to} K");
-                Err(StageError::Data(format!("viscosity: temperature {what}")))
-            }
+            } if !(*from..=*to).contains(&temperature) => Err(StageError::Data(format!(
+                "{what}: temperature {temperature} K is outside of the table, {from} K to {to} K"
+            ))),
             _ => Ok(()),
         }
     }
@@ -178,8 +177,11 @@ mod tests {
             extrapolate: Extrapolate::Error,
         });
         let law = Law::of(&rows, "", Some(&steel())).unwrap();
-        assert!(law.covers(1900.0).is_ok());
-        let told = law.covers(2100.0).unwrap_err().to_string();
+        assert!(law.covers(1900.0, "viscosity").is_ok());
+        let told = law
+            .covers(2100.0, "viscosity of slag")
+            .unwrap_err()
+            .to_string();
         assert!(told.contains("2100 K") && told.contains("2000 K"), "{told}");
     }
 }

@@ -145,7 +145,13 @@ impl Viscosity {
         if self.varies() {
             for (a, (&id, role)) in near.id.iter().zip(&near.role).enumerate() {
                 if *role == Role::Liquid {
-                    law(a).covers(temperature[id as usize])?;
+                    let slag = near.liquids.as_ref().is_some_and(|both| both.is_slag(a));
+                    let what = if slag {
+                        "viscosity of slag"
+                    } else {
+                        "viscosity"
+                    };
+                    law(a).covers(temperature[id as usize], what)?;
                 }
             }
         }
