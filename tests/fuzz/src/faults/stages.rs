@@ -47,7 +47,7 @@ const RECIPES: [Recipe; 10] = [
         "poolsph",
         "poolsph",
         "tests/resume/weld.json",
-        r#"{"time": {"end_s": 0.02}, "output": {"pool": {"from_s": 0.002, "interval_s": 0.001}}}"#,
+        r#"{"time": {"end_s": 0.02}, "output": {"pool": {"from_s": 0.002, "interval_s": 0.0001}}}"#,
         &[("arc", "arcfvm")],
     ),
     (
