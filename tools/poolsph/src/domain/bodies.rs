@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use run::Fault;
 use run::property::{Arguments, Curve};
+use shapes::frame::{difference, dot, squared};
 
 use super::round::Round;
 use super::shape::{Shape, edge};
@@ -26,11 +27,13 @@ pub struct Cut {
 impl Cut {
     /// How far beyond the plane a place is \[m\].
     fn beyond(&self, place: [f64; 3]) -> f64 {
-        let length = self.normal.iter().map(|n| n * n).sum::<f64>().sqrt();
-        (0..3)
-            .map(|k| (place[k] - self.point[k]) * self.normal[k])
-            .sum::<f64>()
-            / length
+        // Of a normal of any length, without overflow.
+        let most = self
+            .normal
+            .iter()
+            .fold(0.0_f64, |most, n| most.max(n.abs()));
+        let normal = self.normal.map(|n| n / most);
+        dot(difference(place, self.point), normal) / squared(normal).sqrt()
     }
 }
 
