@@ -148,3 +148,51 @@ fn along(u: f64, wave: [f64; 2], z: f64) -> f64 {
     let mean = if z == 0.0 { 1.0 } else { -(-z).exp_m1() / z };
     wave[1] + left * (-z).exp() - (wave[1] - wave[0]) * mean
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test may fail")]
+mod tests {
+    use super::*;
+    use crate::scene::Output;
+    use crate::scene::currents::Transient;
+
+    /// What is missed at the end of so many steps of 1 s, of a wave of `expr`.
+    fn missed(expr: &str, steps: u32) -> f64 {
+        let transient = Transient {
+            end_s: f64::from(steps),
+            step_s: 1.0,
+            wave: serde_json::from_str(&format!(r#"{{"expr": "{expr}"}}"#)).unwrap(),
+            adaptive: None,
+        };
+        let wave = Wave::new(&transient, &transient.steps(&Output::default())).unwrap();
+        let mut modes = Modes::new(0.0, 1.0, f64::from(steps));
+        for step in 0..steps {
+            modes.step(f64::from(step), 1.0, &wave).unwrap();
+        }
+        modes.written(f64::from(steps));
+        modes.worst[0]
+    }
+
+    #[test]
+    fn a_switch_is_missed_by_the_stability_function_less_the_exponential() {
+        // R(-z) = (1 - (1 - 2 gamma) z)/(1 + gamma z)^2 of the method (Alexander 1977).
+        for steps in [1, 2, 3, 5] {
+            let z = |k: i32| 10_f64.powf(-3.0 + f64::from(k) / 200.0);
+            let ratio = |z: f64| (1.0 - (1.0 - 2.0 * GAMMA) * z) / (1.0 + GAMMA * z).powi(2);
+            let off = |z: f64| (ratio(z).powi(steps) - (-f64::from(steps) * z).exp()).abs();
+            let most = (0..1200).map(|k| off(z(k))).fold(0.0, f64::max);
+            let told = missed("1", steps as u32);
+            assert!((told / most - 1.0).abs() < 0.02, "{steps}: {told} {most}");
+        }
+    }
+
+    #[test]
+    fn a_mode_follows_a_line_exactly() {
+        // du/dt = -(u - t) from 1: u = t - 1 + 2 exp(-t), whatever the parts.
+        let exact = |t: f64| t - 1.0 + 2.0 * (-t).exp();
+        let halfway = along(1.0, [0.0, 0.5], 0.5);
+        assert!((halfway - exact(0.5)).abs() < 1e-15);
+        assert!((along(halfway, [0.5, 1.0], 0.5) - exact(1.0)).abs() < 1e-15);
+        assert!((along(1.0, [2.0, 3.0], 0.0) - 1.0).abs() < 1e-15);
+    }
+}
