@@ -13,12 +13,12 @@ pub(crate) fn front([behind, beyond]: [f64; 2], k: f64, a: f64) -> f64 {
         let takes = beyond * k * (-far * far).exp() / (a.sqrt() * (1.0 - erf(far)));
         gives - takes - l * PI.sqrt()
     };
-    halved(1e-9, 3.0, |l| heat(l) > 0.0)
+    halved(1e-9, 5.0, |l| heat(l) > 0.0)
 }
 
 /// Where `above` ceases to hold.
 pub(crate) fn halved(mut low: f64, mut high: f64, above: impl Fn(f64) -> bool) -> f64 {
-    for _ in 0..80 {
+    for _ in 0..100 {
         let middle = 0.5 * (low + high);
         if above(middle) {
             low = middle;

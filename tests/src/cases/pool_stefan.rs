@@ -1,11 +1,10 @@
 //! `pool-stefan`: a melting front that runs into a bar.
 
-use std::f64::consts::PI;
-
 use artefact::Reader;
 
 use crate::case::{Case, Errors, Measurement, Target};
 use crate::lab::{Finished, Lab, LabError};
+use crate::neumann::front;
 use crate::norms::relative;
 use crate::particles::{measurement, number};
 use crate::special::erf;
@@ -144,9 +143,10 @@ impl Exact {
             melting,
             start,
             diffusivity: number(run, "/heat/thermal_conductivity_w_m_k")? / capacity,
-            lambda: front_constant(
-                heat * (hot - melting) / latent,
-                heat * (melting - start) / latent,
+            lambda: front(
+                [hot - melting, melting - start].map(|by| heat * by / latent),
+                1.0,
+                1.0,
             ),
         })
     }
@@ -163,35 +163,5 @@ impl Exact {
             let part = (1.0 - erf(eta)) / (1.0 - erf(self.lambda));
             self.start + (self.melting - self.start) * part
         }
-    }
-}
-
-/// lambda with `exp(-l^2) (liquid / erf l - solid / erfc l) = l sqrt(pi)`, the Stefan numbers of
-/// liquid and solid given, by bisection.
-fn front_constant(liquid: f64, solid: f64) -> f64 {
-    let heat = |l: f64| {
-        let flux = liquid / erf(l) - solid / (1.0 - erf(l));
-        (-l * l).exp() * flux - l * PI.sqrt()
-    };
-    let (mut low, mut high) = (1e-9, 4.0);
-    for _ in 0..80 {
-        let middle = 0.5 * (low + high);
-        if heat(middle) > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_front_of_one_phase_has_its_known_constant() {
-        // Stefan number 1: lambda = 0.620063 (Alexiades and Solomon 1993, section 2.1).
-        assert!((front_constant(1.0, 0.0) - 0.620_063).abs() < 1e-6);
     }
 }

@@ -6,8 +6,7 @@
 //! lambda sqrt(pi) L = (1 - Tm) exp(-lambda^2) / erf(lambda) - Tm exp(-lambda^2) / erfc(lambda)
 //! ```
 
-use std::f64::consts::PI;
-
+use crate::neumann::front;
 use crate::special::{erf, erfc};
 
 /// A half space that melts.
@@ -41,20 +40,8 @@ impl Melting {
     }
 
     fn lambda(&self) -> f64 {
-        let excess = |l: f64| {
-            let heat = (1.0 - self.melting) / erf(l) - self.melting / erfc(l);
-            heat * (-l * l).exp() - l * PI.sqrt() * self.latent
-        };
-        let (mut low, mut high) = (1e-9, 5.0);
-        for _ in 0..100 {
-            let middle = 0.5 * (low + high);
-            if excess(middle) > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        0.5 * (low + high)
+        let over = |range: f64| range / self.latent;
+        front([over(1.0 - self.melting), over(self.melting)], 1.0, 1.0)
     }
 }
 
